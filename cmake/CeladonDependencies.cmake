@@ -1,0 +1,50 @@
+# Everything comes from Debian packages; a missing one says which package to install.
+find_package(PkgConfig REQUIRED)
+
+macro(celadon_require variable package)
+    if(NOT ${variable})
+        message(FATAL_ERROR "Missing library: install the Debian package '${package}' "
+                            "(or let './run setup' install all of them).")
+    endif()
+endmacro()
+
+find_package(Threads REQUIRED)
+find_package(glm QUIET)
+celadon_require(glm_FOUND libglm-dev)
+find_package(fmt QUIET)
+celadon_require(fmt_FOUND libfmt-dev)
+find_package(spdlog QUIET)
+celadon_require(spdlog_FOUND libspdlog-dev)
+find_package(nlohmann_json QUIET)
+celadon_require(nlohmann_json_FOUND nlohmann-json3-dev)
+find_package(CLI11 QUIET)
+celadon_require(CLI11_FOUND libcli11-dev)
+find_package(Eigen3 QUIET)
+celadon_require(Eigen3_FOUND libeigen3-dev)
+find_package(TBB QUIET)
+celadon_require(TBB_FOUND libtbb-dev)
+find_package(embree 3 QUIET)
+celadon_require(embree_FOUND libembree-dev)
+find_package(OpenMesh QUIET)
+celadon_require(OpenMesh_FOUND libopenmesh-dev)
+find_package(TinyGLTF QUIET)
+celadon_require(TinyGLTF_FOUND libtinygltf-dev)
+find_package(glfw3 3.3 QUIET)
+celadon_require(glfw3_FOUND libglfw3-dev)
+pkg_check_modules(OIIO QUIET IMPORTED_TARGET OpenImageIO)
+celadon_require(OIIO_FOUND libopenimageio-dev)
+if(BUILD_TESTING)
+    find_package(GTest QUIET)
+    celadon_require(GTest_FOUND libgtest-dev)
+endif()
+
+# The GL loader is generated, so that one loader serves GLX, EGL and OSMesa alike.
+find_program(GLAD_PROGRAM glad)
+celadon_require(GLAD_PROGRAM python3-glad)
+set(glad_dir "${PROJECT_BINARY_DIR}/glad")
+add_custom_command(
+    OUTPUT "${glad_dir}/src/gl.c" "${glad_dir}/include/glad/gl.h"
+    COMMAND ${GLAD_PROGRAM} --reproducible --quiet --api gl:core=4.5 --out-path "${glad_dir}" c
+    VERBATIM COMMENT "Generating the OpenGL 4.5 core loader")
+add_library(celadon_glad STATIC "${glad_dir}/src/gl.c" "${glad_dir}/include/glad/gl.h")
+target_include_directories(celadon_glad SYSTEM PUBLIC "${glad_dir}/include")

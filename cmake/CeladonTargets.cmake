@@ -1,0 +1,61 @@
+# What every target of ours has in common: language level, warnings, sanitizers; and how tests are added.
+
+add_library(celadon_options INTERFACE)
+target_compile_features(celadon_options INTERFACE cxx_std_20)
+target_compile_options(celadon_options INTERFACE
+    -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
+    $<$<BOOL:${CELADON_WERROR}>:-Werror>)
+if(CELADON_ASSERTIONS)
+    target_compile_definitions(celadon_options INTERFACE CELADON_ASSERTIONS=1)
+endif()
+if(CELADON_SANITIZE)
+    target_compile_options(celadon_options INTERFACE
+        -fsanitize=${CELADON_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    target_link_options(celadon_options INTERFACE -fsanitize=${CELADON_SANITIZE})
+endif()
+if(CELADON_COVERAGE)
+    target_compile_options(celadon_options INTERFACE --coverage)
+    target_link_options(celadon_options INTERFACE --coverage)
+endif()
+
+# celadon_add_library(NAME): a static library of this folder with the alias celadon::NAME.
+# Sources are listed by hand with target_sources in the folder's own CMakeLists.txt.
+function(celadon_add_library name)
+    add_library(celadon_${name} STATIC)
+    add_library(celadon::${name} ALIAS celadon_${name})
+    target_link_libraries(celadon_${name} PRIVATE $<BUILD_INTERFACE:celadon_options>)
+    target_include_directories(celadon_${name} PUBLIC "${PROJECT_SOURCE_DIR}")
+    set_target_properties(celadon_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+endfunction()
+
+# celadon_add_test(NAME SOURCES a.cpp ... LIBRARIES celadon::x ... [LABELS unit|gpu|golden|slow ...] [GL] [TIMEOUT s])
+# One executable; with GL it runs once on EGL and once on OSMesa (environment variable CELADON_CONTEXT).
+function(celadon_add_test name)
+    cmake_parse_arguments(ARG "GL" "TIMEOUT" "SOURCES;LIBRARIES;LABELS" ${ARGN})
+    if(NOT ARG_TIMEOUT)
+        set(ARG_TIMEOUT 300)
+    endif()
+    add_executable(${name}_test ${ARG_SOURCES})
+    target_link_libraries(${name}_test PRIVATE celadon_options ${ARG_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
+    target_include_directories(${name}_test PRIVATE "${PROJECT_SOURCE_DIR}")
+    target_compile_definitions(${name}_test PRIVATE
+        CELADON_SOURCE_DIR="${PROJECT_SOURCE_DIR}" CELADON_PROGRAM="$<TARGET_FILE:celadon>")
+    if(ARG_GL)
+        set(contexts egl osmesa)
+        list(APPEND ARG_LABELS gpu)
+    else()
+        set(contexts any)
+        list(APPEND ARG_LABELS unit)
+    endif()
+    foreach(context IN LISTS contexts)
+        set(test_name ${name})
+        if(ARG_GL)
+            set(test_name ${name}.${context})
+        endif()
+        add_test(NAME ${test_name} COMMAND ${name}_test)
+        set_tests_properties(${test_name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+        if(ARG_GL)
+            set_tests_properties(${test_name} PROPERTIES ENVIRONMENT "CELADON_CONTEXT=${context}")
+        endif()
+    endforeach()
+endfunction()

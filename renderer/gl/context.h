@@ -1,0 +1,69 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// OpenGL 4.5 core contexts without a visible window: EGL (surfaceless, device), OSMesa and GLFW's
+/// hidden window, chosen at run time in one program.
+namespace celadon::gl {
+
+enum class ContextKind { Auto, Glfw, Egl, Osmesa };
+
+/// @throws UsageError for another word than auto|glfw|egl|osmesa
+[[nodiscard]] ContextKind parseContextKind(std::string_view word);
+[[nodiscard]] const char* contextKindName(ContextKind kind);
+
+/// A current OpenGL 4.5 core context with debug output on. The functions of <glad/gl.h> are loaded.
+/// Owners of GL objects keep it alive; it is made current on the thread that created it.
+class Context {
+public:
+    virtual ~Context() = default;
+    Context(const Context&) = delete;
+    Context& operator=(const Context&) = delete;
+
+    [[nodiscard]] ContextKind kind() const { return mKind; }
+    /// "egl (surfaceless)", "egl (device 1)", "osmesa", "glfw"
+    [[nodiscard]] const std::string& description() const { return mDescription; }
+    [[nodiscard]] const std::string& renderer() const { return mRenderer; } ///< GL_RENDERER
+    [[nodiscard]] const std::string& version() const { return mVersion; }   ///< GL_VERSION
+    /// llvmpipe, softpipe, swrast: no GPU behind it; timer queries do not measure there.
+    [[nodiscard]] bool isSoftware() const { return mSoftware; }
+
+    virtual void makeCurrent() = 0;
+
+    /// Messages of KHR_debug with severity medium or high since the last call; empty in a sound program.
+    [[nodiscard]] std::vector<std::string> takeDebugMessages();
+
+protected:
+    Context(ContextKind kind, std::string description);
+    /// Called by each backend once its context is current: loads functions, reads strings, starts debug output.
+    void initialize(void* (*getProcAddress)(const char*));
+
+private:
+    ContextKind mKind;
+    std::string mDescription;
+    std::string mRenderer;
+    std::string mVersion;
+    bool mSoftware = true;
+    struct DebugLog;
+    std::shared_ptr<DebugLog> mDebugLog;
+};
+
+/// `Auto` prefers a GPU (EGL devices first, then GLFW), then software EGL, then OSMesa.
+/// @throws ContextError: one line that lists each backend tried with its reason
+[[nodiscard]] std::unique_ptr<Context> createContext(ContextKind kind);
+
+/// One entry per backend (and per EGL device), for `celadon info --system`.
+struct ContextProbe {
+    std::string backend;
+    bool works = false;
+    std::string reason; ///< why not, when it does not
+    std::string renderer, version, vendor;
+    std::vector<std::pair<std::string, long long>> limits; ///< GL name -> value
+    std::vector<std::string> missing; ///< extensions or formats that Celadon would like
+};
+[[nodiscard]] std::vector<ContextProbe> probeContexts();
+
+} // namespace celadon::gl

@@ -1,0 +1,1 @@
+#include "renderer/scene/load_scene.h"

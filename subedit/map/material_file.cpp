@@ -1,0 +1,1 @@
+#include "subedit/map/material_file.h"
