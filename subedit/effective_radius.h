@@ -20,6 +20,7 @@ struct ProfileView {
 
 /// Effective scattering radius R_P per channel: the radius in mm that holds `energyFraction` of the
 /// profile's integral of P r dr. DESIGN section 1: R_P of a texel is the largest of the three.
-[[nodiscard]] glm::dvec3 effectiveRadiusMm(const ProfileView& profile, double energyFraction = 0.95);
+[[nodiscard]] glm::dvec3 effectiveRadiusMm(const ProfileView& profile,
+                                           double energyFraction = 0.95);
 
 } // namespace celadon::subedit

@@ -33,12 +33,14 @@ public:
 
     virtual void makeCurrent() = 0;
 
-    /// Messages of KHR_debug with severity medium or high since the last call; empty in a sound program.
+    /// Messages of KHR_debug with severity medium or high since the last call; empty in a sound
+    /// program.
     [[nodiscard]] std::vector<std::string> takeDebugMessages();
 
 protected:
     Context(ContextKind kind, std::string description);
-    /// Called by each backend once its context is current: loads functions, reads strings, starts debug output.
+    /// Called by each backend once its context is current: loads functions, reads strings, starts
+    /// debug output.
     void initialize(void* (*getProcAddress)(const char*));
 
 private:

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "renderer/scene/scene.h"
+
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "renderer/scene/scene.h"
 
 /// Models made in code, `builtin:NAME` on the command line.
 namespace celadon {
@@ -12,7 +12,8 @@ namespace celadon {
 /// Names without the prefix, the default sculpture first.
 [[nodiscard]] std::vector<std::string> builtinNames();
 
-/// With normals and UVs of little distortion. Units: as each says in its .cpp; sets millimetersPerUnit.
+/// With normals and UVs of little distortion. Units: as each says in its .cpp; sets
+/// millimetersPerUnit.
 /// @throws UsageError for an unknown name, listing the known ones
 [[nodiscard]] Scene makeBuiltin(std::string_view name);
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <glm/glm.hpp>
+
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -7,11 +9,9 @@
 #include <string>
 #include <vector>
 
-#include <glm/glm.hpp>
-
-/// What a model file says, in memory: triangles, looks, cameras and lights, in model units and world
-/// space (glTF: after node transforms). No GL here. Loaders and builtins produce it, the renderer
-/// turns it into millimeters on the GPU.
+/// What a model file says, in memory: triangles, looks, cameras and lights, in model units and
+/// world space (glTF: after node transforms). No GL here. Loaders and builtins produce it, the
+/// renderer turns it into millimeters on the GPU.
 namespace celadon {
 
 /// An 8-bit RGBA picture, top row first.
@@ -34,7 +34,8 @@ struct TextureReference {
     [[nodiscard]] bool isSet() const { return image >= 0; }
 };
 
-/// The look of a surface apart from its scattering: the specular lobe, and what an opaque part shows.
+/// The look of a surface apart from its scattering: the specular lobe, and what an opaque part
+/// shows.
 struct SurfaceMaterial {
     std::string name;
     glm::vec4 baseColor{0.8f, 0.8f, 0.8f, 1.0f}; ///< linear
@@ -47,18 +48,19 @@ struct SurfaceMaterial {
     TextureReference metallicRoughnessTexture; ///< G roughness, B metallic
     TextureReference normalTexture;
     float normalScale = 1.0f;
-    std::optional<std::filesystem::path> subedit; ///< the SubEdit file that the glTF names, resolved
+    std::optional<std::filesystem::path>
+        subedit; ///< the SubEdit file that the glTF names, resolved
 };
 
 /// Triangles with one look. Counter-clockwise is the front.
 struct Mesh {
     std::string name;
-    std::vector<glm::vec3> positions; ///< model units
-    std::vector<glm::vec3> normals;   ///< unit length, one per position (computed where missing)
-    std::vector<glm::vec2> uvs;       ///< (0,0) top left, v down; one per position, or empty
-    std::vector<glm::vec2> uvs1;      ///< second set, or empty
+    std::vector<glm::vec3> positions;   ///< model units
+    std::vector<glm::vec3> normals;     ///< unit length, one per position (computed where missing)
+    std::vector<glm::vec2> uvs;         ///< (0,0) top left, v down; one per position, or empty
+    std::vector<glm::vec2> uvs1;        ///< second set, or empty
     std::vector<std::uint32_t> indices; ///< three a triangle, all < positions.size()
-    int material = 0;                 ///< index into Scene::materials
+    int material = 0;                   ///< index into Scene::materials
     [[nodiscard]] std::size_t triangleCount() const { return indices.size() / 3; }
 };
 
@@ -84,13 +86,13 @@ struct Light {
 
 struct Scene {
     std::string name;
-    std::vector<Mesh> meshes; ///< none is empty
+    std::vector<Mesh> meshes;               ///< none is empty
     std::vector<SurfaceMaterial> materials; ///< at least one
     std::vector<Image> images;
     std::vector<Camera> cameras;
     std::vector<Light> lights;
     std::optional<double> millimetersPerUnit; ///< glTF: 1000; files with no unit: unset
-    std::vector<std::string> warnings; ///< one line each, for the user
+    std::vector<std::string> warnings;        ///< one line each, for the user
 };
 
 struct BoundingSphere {
@@ -100,6 +102,7 @@ struct BoundingSphere {
 
 /// Center of the axis-aligned box, radius the farthest vertex, over vertices that triangles use
 /// (DESIGN section 1). `include` selects meshes by index; all when empty.
-[[nodiscard]] BoundingSphere boundingSphere(const Scene& scene, const std::vector<bool>& include = {});
+[[nodiscard]] BoundingSphere boundingSphere(const Scene& scene,
+                                            const std::vector<bool>& include = {});
 
 } // namespace celadon

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <filesystem>
-
 #include "subedit/map/material_map.h"
+
+#include <filesystem>
 
 /// The SubEdit file, `NAME.subedit.exr` (DESIGN section 2): one OpenEXR with channels
 /// `P00.R P00.G P00.B ... Pnn.B` of ln P and attributes `subedit:*`.

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+
+#include <string>
+#include <vector>
 
 /// A SubEdit material (DESIGN section 2): a map over the surface whose every texel holds a
 /// scattering profile, piecewise linear in ln P on `segments` equal pieces of [0, maxRadiusMm]
