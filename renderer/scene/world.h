@@ -1,0 +1,52 @@
+#pragma once
+
+#include "renderer/scene/scene.h"
+#include "subedit/map/material_map.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// The scene in world millimeters with its SubEdit materials resolved: what every solver and every
+/// pass takes. World millimeters are model units times millimetersPerUnit, origin and axes
+/// unchanged.
+namespace celadon {
+
+using MaterialPointer = std::shared_ptr<const subedit::MaterialMap>;
+
+struct WorldMesh {
+    Mesh mesh; ///< positions in mm; uvs always present where `scattering` >= 0
+    int scattering =
+        -1; ///< index into World::materials; -1: opaque (shadows and is seen, gives no samples)
+};
+
+struct World {
+    std::vector<WorldMesh> meshes;
+    std::vector<SurfaceMaterial> looks; ///< Mesh::material indexes these
+    std::vector<Image> images;
+    std::vector<MaterialPointer> materials; ///< at least one
+    std::vector<Camera> cameras;            ///< in mm
+    std::vector<Light> lights;              ///< positions in mm
+    double millimetersPerUnit = 1.0;
+    BoundingSphere scatteringSphere; ///< mm, over scattering meshes; its diameter is R_w
+    BoundingSphere sceneSphere;      ///< mm, over everything
+    std::vector<std::string> warnings;
+};
+
+/// How long a model unit is: given, or from the wanted diameter of the scattering meshes' bounding
+/// sphere, or from the file, or such that this diameter is 100 mm.
+struct WorldScale {
+    std::optional<double> millimetersPerUnit;
+    std::optional<double> diameterMm;
+};
+
+/// What scatters (DESIGN section 1): with `override`, every mesh; else the meshes whose look names
+/// a SubEdit file (`namedMaterials[i]` is that of Scene::materials[i], null: opaque); if none does,
+/// every mesh takes `fallback`. Scattering meshes without uvs get one automatic atlas together.
+/// @throws InputError: nothing scatters, a degenerate scene (bounding radius 0 or not finite)
+[[nodiscard]] World buildWorld(Scene scene, const MaterialPointer& override,
+                               const std::vector<MaterialPointer>& namedMaterials,
+                               const MaterialPointer& fallback, const WorldScale& scale);
+
+} // namespace celadon
