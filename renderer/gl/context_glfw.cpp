@@ -10,8 +10,6 @@ namespace celadon::gl {
 
 namespace {
 
-int gSessions = 0; ///< main thread only, as all of GLFW
-
 std::string takeGlfwError() {
     const char* text = nullptr;
     return glfwGetError(&text) != GLFW_NO_ERROR && text != nullptr ? text : "no error given";
@@ -26,6 +24,7 @@ public:
 
     /// With a hidden window of its own.
     WindowContext() : Context(ContextKind::Glfw, "glfw"), mOwnsWindow(true) {
+        initializeGlfw();
         glfwDefaultWindowHints();
         setGlfwContextHints();
         glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
@@ -63,23 +62,15 @@ private:
 
     void unbind() noexcept override { glfwMakeContextCurrent(nullptr); }
 
-    GlfwSession mSession;
     GLFWwindow* mWindow = nullptr;
     bool mOwnsWindow = false;
 };
 
 } // namespace
 
-GlfwSession::GlfwSession() {
-    if (gSessions == 0 && glfwInit() != GLFW_TRUE) {
+void initializeGlfw() {
+    if (glfwInit() != GLFW_TRUE) { // does nothing when it is initialized
         throw ContextError("glfw", takeGlfwError());
-    }
-    ++gSessions;
-}
-
-GlfwSession::~GlfwSession() {
-    if (--gSessions == 0) {
-        glfwTerminate();
     }
 }
 

@@ -9,17 +9,11 @@ struct GLFWwindow;
 /// What the editor needs of GLFW beyond a hidden context: its own window as a Context.
 namespace celadon::gl {
 
-/// Keeps GLFW initialized. The library is initialized once for the process and terminated with the
-/// last session, so that a hidden context and the editor's window do not end each other.
-/// Main thread only, as GLFW demands.
-class GlfwSession {
-public:
-    /// @throws ContextError with GLFW's reason (no display, for example)
-    GlfwSession();
-    ~GlfwSession();
-    GlfwSession(const GlfwSession&) = delete;
-    GlfwSession& operator=(const GlfwSession&) = delete;
-};
+/// Initializes GLFW unless it is. Main thread only, as GLFW demands. There is no counterpart: to
+/// terminate GLFW unloads libGL, which leaves its functions dangling, and Mesa's GLX does not come
+/// up a second time ("X Error: BadAccess").
+/// @throws ContextError with GLFW's reason (no display, for example)
+void initializeGlfw();
 
 /// Window hints for an OpenGL 4.5 core debug context; the caller adds its own before or after.
 void setGlfwContextHints();
