@@ -167,10 +167,7 @@ void Context::makeCurrent() {
     // of its contexts; another backend has others.
     static GetProcAddress loaded = nullptr;
     if (gCurrent != this) {
-        if (gCurrent != nullptr) {
-            gCurrent->unbind();
-            gCurrent = nullptr;
-        }
+        releaseCurrent();
         bind();
         gCurrent = this;
     }
@@ -200,10 +197,16 @@ void Context::initialize(GetProcAddress getProcAddress) {
     mDebugLog->attach();
 }
 
+void Context::releaseCurrent() noexcept {
+    if (gCurrent != nullptr) {
+        gCurrent->unbind();
+        gCurrent = nullptr;
+    }
+}
+
 void Context::retire() noexcept {
     if (gCurrent == this) {
-        unbind();
-        gCurrent = nullptr;
+        releaseCurrent();
     }
 }
 
@@ -216,6 +219,7 @@ std::unique_ptr<Context> createContext(ContextKind kind) {
             continue;
         }
         try {
+            Context::releaseCurrent();
             std::unique_ptr<Context> context = candidate.create();
             if (!context->isSoftware()) {
                 return context;
@@ -264,6 +268,7 @@ std::vector<ContextProbe> probeContexts() {
         ContextProbe probe;
         probe.backend = candidate.name;
         try {
+            Context::releaseCurrent();
             const std::unique_ptr<Context> context = candidate.create();
             probe.works = true;
             probe.renderer = context->renderer();

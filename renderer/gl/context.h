@@ -39,6 +39,9 @@ public:
     void makeCurrent();
     /// The context that is current on this thread, or null.
     [[nodiscard]] static Context* current();
+    /// Leaves no context current on this thread. Needed before another library makes one current
+    /// (glfwCreateWindow does), which drivers refuse while a context of EGL is.
+    static void releaseCurrent() noexcept;
     /// Number of this context, unique in the process and never 0. GL names are only unique within a
     /// context; owners of GL objects remember it.
     [[nodiscard]] std::uint32_t serial() const { return mSerial; }
