@@ -1,9 +1,3 @@
-<<<<<<< HEAD
-// One triangle that covers the viewport; no attributes.
-void main() {
-    vec2 corner = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2);
-    gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
-=======
 // One triangle that covers the viewport; draw 3 vertices of an empty vertex array.
 
 layout(location = 0) out vec2 unitPosition; // (0,0) lower left, (1,1) upper right
@@ -11,5 +5,4 @@ layout(location = 0) out vec2 unitPosition; // (0,0) lower left, (1,1) upper rig
 void main() {
     unitPosition = vec2(gl_VertexID == 1 ? 2.0 : 0.0, gl_VertexID == 2 ? 2.0 : 0.0);
     gl_Position = vec4(2.0 * unitPosition - 1.0, 0.0, 1.0);
->>>>>>> context
 }

@@ -8,8 +8,8 @@
 
 layout(location = 0) uniform ivec4 levels; // irradiance level, texels in a row of it, splatting level, 0
 
-layout(binding = 0) uniform sampler2D positions;
-layout(binding = 1) uniform sampler2D surfaces;
+layout(binding = 24) uniform sampler2D positions;
+layout(binding = 25) uniform sampler2D surfaces;
 layout(binding = 7) uniform sampler2DArray nodeProfiles;
 
 flat in vec4 center;
