@@ -103,7 +103,7 @@ void GpuWorld::addMesh(const WorldMesh& source) {
     result.vertexArray.setAttribute(0, {.location = 1, .components = 3, .offsetBytes = 12});
     result.vertexArray.setAttribute(0, {.location = 2, .components = 2, .offsetBytes = 24});
     result.vertexArray.setAttribute(0, {.location = 3, .components = 2, .offsetBytes = 32});
-    result.vertexArray.setElementBuffer(result.indices);
+    result.vertexArray.setIndexBuffer(result.indices);
     result.indexCount = static_cast<int>(mesh.indices.size());
     result.look = mesh.material;
     result.scattering = source.scattering;

@@ -5,6 +5,7 @@
 #include "subedit/radius_map.h"
 #include "subedit/range_table.h"
 
+#include <glm/common.hpp>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
