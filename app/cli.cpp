@@ -3,6 +3,8 @@
 #include "app/command.h"
 #include "app/command_compare.h"
 #include "app/command_info.h"
+#include "app/command_material.h"
+#include "app/command_profile.h"
 #include "app/command_render.h"
 #include "app/log.h"
 #include "subedit/errors.h"
@@ -111,6 +113,11 @@ int runCommandLine(int argc, const char* const* argv) {
                 "Tells on stderr what is being done and chosen", verbose);
     }
 
+    root.allow_extras(false); // these two refuse unknown words themselves
+    addProfileCommand(root);
+    addMaterialCommand(root);
+    root.allow_extras();
+
     const CLI::App* current = &root;
     try {
         root.parse(argc, argv);
@@ -131,6 +138,9 @@ int runCommandLine(int argc, const char* const* argv) {
     });
     if (chosen != commands.end()) {
         current = chosen->options;
+    }
+    if (root.got_subcommand("profile") || root.got_subcommand("material")) {
+        return 0; // done while parsing
     }
     refuseLeftOver(*current, commandNames);
     refuseLeftOver(root, commandNames);
