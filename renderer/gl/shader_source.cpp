@@ -106,7 +106,7 @@ private:
         const std::size_t number = mSource.mFiles.size();
         mSource.mFiles.push_back(path);
         mOpen.push_back(path);
-        mSource.mText += fmt::format("#line 1 {}\n", number);
+        appendLineDirective(1, number);
         bool inComment = false;
         int conditionDepth = 0;
         int line = 0;
@@ -123,7 +123,7 @@ private:
                     fail(path, line, "#include within #if; files are included whatever it says");
                 }
                 include(path, line, directive->argument);
-                mSource.mText += fmt::format("#line {} {}\n", line + 1, number);
+                appendLineDirective(line + 1, number);
                 continue;
             }
             if (directive && directive->name == "version") {
@@ -140,6 +140,13 @@ private:
             fail(path, line, "a comment /* is not closed");
         }
         mOpen.pop_back();
+    }
+
+    void appendLineDirective(int line, std::size_t number) {
+        mSource.mText += fmt::format("#line {} {}\n",
+                                     number * static_cast<std::size_t>(kLinesPerFile) +
+                                         static_cast<std::size_t>(line),
+                                     number);
     }
 
     void include(const std::string& from, int line, std::string_view argument) {
@@ -205,14 +212,18 @@ std::vector<ShaderDiagnostic> ShaderSource::translateLog(std::string_view log) c
             continue;
         }
         std::smatch match;
-        if (!std::regex_match(line, match, pattern) ||
-            static_cast<std::size_t>(std::stoi(match[2])) >= mFiles.size()) {
+        if (!std::regex_match(line, match, pattern)) {
+            diagnostics.push_back({"", 0, line});
+            continue;
+        }
+        const int number = std::stoi(match[3].matched ? match[3] : match[4]);
+        const int file = number >= kLinesPerFile ? number / kLinesPerFile : std::stoi(match[2]);
+        if (static_cast<std::size_t>(file) >= mFiles.size()) {
             diagnostics.push_back({"", 0, line});
             continue;
         }
         const std::string severity = match[1].matched ? match[1].str() + ": " : "";
-        diagnostics.push_back({mFiles[static_cast<std::size_t>(std::stoi(match[2]))],
-                               std::stoi(match[3].matched ? match[3] : match[4]),
+        diagnostics.push_back({mFiles[static_cast<std::size_t>(file)], number % kLinesPerFile,
                                severity + match[5].str()});
     }
     return diagnostics;
