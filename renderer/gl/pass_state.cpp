@@ -61,7 +61,7 @@ void applyRasterization(const PassState& state) {
     glCullFace(state.cull == Cull::Front ? GL_FRONT : GL_BACK);
     glFrontFace(GL_CCW);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-    glDisable(GL_RASTERIZER_DISCARD);
+    enable(GL_RASTERIZER_DISCARD, state.rasterizerDiscard);
     glDisable(GL_PRIMITIVE_RESTART);
     glDisable(GL_PRIMITIVE_RESTART_FIXED_INDEX);
     glEnable(GL_PROGRAM_POINT_SIZE);
@@ -69,7 +69,7 @@ void applyRasterization(const PassState& state) {
     for (int i = 0; i < kClipDistances; ++i) {
         enable(GL_CLIP_DISTANCE0 + static_cast<GLenum>(i), i < state.clipDistances);
     }
-    glClipControl(GL_LOWER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE); // reversed depth keeps its precision
 }
 
 } // namespace
