@@ -158,13 +158,13 @@ private:
         const std::string folder = slash != std::string::npos ? from.substr(0, slash + 1) : "";
         const std::string beside = folder + std::string(name);
         const std::string shared = "include/" + std::string(name);
-        for (const std::string& path : {beside, shared}) {
+        for (const std::string& path : {beside, std::string(name), shared}) {
             if (std::find(mOpen.begin(), mOpen.end(), path) != mOpen.end()) {
                 fail(from, line,
                      fmt::format("include cycle: {} -> {}", fmt::join(mOpen, " -> "), path));
             }
-            if (std::find(mSource.mFiles.begin() + kFirstFile, mSource.mFiles.end(), path) !=
-                mSource.mFiles.end()) {
+            const auto firstFile = mSource.mFiles.begin() + kFirstFile;
+            if (std::find(firstFile, mSource.mFiles.end(), path) != mSource.mFiles.end()) {
                 return;
             }
             if (const std::optional<std::string> text = mLibrary.text(path)) {
@@ -173,8 +173,8 @@ private:
             }
         }
         fail(from, line,
-             fmt::format("cannot find \"{}\" in {}, as '{}' or '{}'", name, mLibrary.description(),
-                         beside, shared));
+             fmt::format("cannot find \"{}\" in {}, as '{}', '{}' or '{}'", name,
+                         mLibrary.description(), beside, name, shared));
     }
 
     [[noreturn]] static void fail(const std::string& path, int line, const std::string& reason) {

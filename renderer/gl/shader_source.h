@@ -26,7 +26,8 @@ struct ShaderDiagnostic {
 
 /// The whole text of one shader stage, ready for the driver. Three things are done, and no other
 /// language is put on top of GLSL:
-/// - `#include "x.glsl"` is resolved, relative to the including file and then to shaders/include/;
+/// - `#include "x.glsl"` is resolved, relative to the including file, to shaders/ or to
+///   shaders/include/;
 ///   a file is included once per shader, as if each had a guard; cycles are errors. An #include
 ///   within #if is refused: files are included whatever the options say.
 /// - `#version 450 core` and the defines come first; `#line` numbers lines and files.

@@ -22,7 +22,7 @@ constexpr std::array kFiles{
     EmbeddedShader{"pass.frag", "// a pass\n#include \"a.glsl\"\nvoid main() {}\n"},
     EmbeddedShader{"include/a.glsl",
                    "#include \"b.glsl\"\n  #  include   \"c.glsl\" // shared\nA\n"},
-    EmbeddedShader{"include/b.glsl", "#include \"c.glsl\"\nB"},
+    EmbeddedShader{"include/b.glsl", "#include \"include/c.glsl\"\nB"},
     EmbeddedShader{"include/c.glsl", "C\n"},
     EmbeddedShader{"loop.comp", "\n#include \"loop_a.glsl\"\n"},
     EmbeddedShader{"include/loop_a.glsl", "#include \"loop_b.glsl\"\n"},
@@ -150,6 +150,16 @@ TEST(ShaderLibrary, EmbedsTheFilesOfTheFolder) {
             std::any_of(shaders::embeddedShaders().begin(), shaders::embeddedShaders().end(),
                         [&](const EmbeddedShader& file) { return file.path == path; });
         EXPECT_TRUE(listed) << path << " is not in shaders/CMakeLists.txt";
+    }
+}
+
+TEST(ShaderLibrary, EveryShaderFindsItsIncludes) {
+    const ShaderLibrary embedded(shaders::embeddedShaders());
+    for (const EmbeddedShader& file : shaders::embeddedShaders()) {
+        if (!file.path.ends_with(".glsl")) {
+            EXPECT_NO_THROW(static_cast<void>(ShaderSource::load(embedded, file.path)))
+                << file.path;
+        }
     }
 }
 
