@@ -69,7 +69,9 @@ public:
     void fill(GLuint word);
 
     /// Persistent, coherent memory of the whole buffer, for Upload and Readback; else empty.
-    [[nodiscard]] std::span<std::byte> mapped() const { return {mMapped, mSize}; }
+    [[nodiscard]] std::span<std::byte> mapped() const {
+        return {mMapped, mMapped != nullptr ? mSize : 0};
+    }
 
     void bindStorage(GLuint binding) const;
     void bindStorage(GLuint binding, std::size_t offsetBytes, std::size_t bytes) const;

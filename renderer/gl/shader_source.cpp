@@ -106,7 +106,7 @@ private:
         const std::size_t number = mSource.mFiles.size();
         mSource.mFiles.push_back(path);
         mOpen.push_back(path);
-        mSource.mText += fmt::format("#line 1 {}\n", number);
+        appendLineDirective(1, number);
         bool inComment = false;
         int conditionDepth = 0;
         int line = 0;
@@ -123,7 +123,7 @@ private:
                     fail(path, line, "#include within #if; files are included whatever it says");
                 }
                 include(path, line, directive->argument);
-                mSource.mText += fmt::format("#line {} {}\n", line + 1, number);
+                appendLineDirective(line + 1, number);
                 continue;
             }
             if (directive && directive->name == "version") {
@@ -142,6 +142,13 @@ private:
         mOpen.pop_back();
     }
 
+    void appendLineDirective(int line, std::size_t number) {
+        mSource.mText += fmt::format("#line {} {}\n",
+                                     number * static_cast<std::size_t>(kLinesPerFile) +
+                                         static_cast<std::size_t>(line),
+                                     number);
+    }
+
     void include(const std::string& from, int line, std::string_view argument) {
         if (argument.size() < 3 || argument.front() != '"' || argument.back() != '"') {
             fail(from, line, "#include wants a name in double quotes");
@@ -151,13 +158,13 @@ private:
         const std::string folder = slash != std::string::npos ? from.substr(0, slash + 1) : "";
         const std::string beside = folder + std::string(name);
         const std::string shared = "include/" + std::string(name);
-        for (const std::string& path : {beside, shared}) {
+        for (const std::string& path : {beside, std::string(name), shared}) {
             if (std::find(mOpen.begin(), mOpen.end(), path) != mOpen.end()) {
                 fail(from, line,
                      fmt::format("include cycle: {} -> {}", fmt::join(mOpen, " -> "), path));
             }
-            if (std::find(mSource.mFiles.begin() + kFirstFile, mSource.mFiles.end(), path) !=
-                mSource.mFiles.end()) {
+            const auto firstFile = mSource.mFiles.begin() + kFirstFile;
+            if (std::find(firstFile, mSource.mFiles.end(), path) != mSource.mFiles.end()) {
                 return;
             }
             if (const std::optional<std::string> text = mLibrary.text(path)) {
@@ -166,8 +173,8 @@ private:
             }
         }
         fail(from, line,
-             fmt::format("cannot find \"{}\" in {}, as '{}' or '{}'", name, mLibrary.description(),
-                         beside, shared));
+             fmt::format("cannot find \"{}\" in {}, as '{}', '{}' or '{}'", name,
+                         mLibrary.description(), beside, name, shared));
     }
 
     [[noreturn]] static void fail(const std::string& path, int line, const std::string& reason) {
@@ -205,14 +212,18 @@ std::vector<ShaderDiagnostic> ShaderSource::translateLog(std::string_view log) c
             continue;
         }
         std::smatch match;
-        if (!std::regex_match(line, match, pattern) ||
-            static_cast<std::size_t>(std::stoi(match[2])) >= mFiles.size()) {
+        if (!std::regex_match(line, match, pattern)) {
+            diagnostics.push_back({"", 0, line});
+            continue;
+        }
+        const int number = std::stoi(match[3].matched ? match[3] : match[4]);
+        const int file = number >= kLinesPerFile ? number / kLinesPerFile : std::stoi(match[2]);
+        if (static_cast<std::size_t>(file) >= mFiles.size()) {
             diagnostics.push_back({"", 0, line});
             continue;
         }
         const std::string severity = match[1].matched ? match[1].str() + ": " : "";
-        diagnostics.push_back({mFiles[static_cast<std::size_t>(std::stoi(match[2]))],
-                               std::stoi(match[3].matched ? match[3] : match[4]),
+        diagnostics.push_back({mFiles[static_cast<std::size_t>(file)], number % kLinesPerFile,
                                severity + match[5].str()});
     }
     return diagnostics;

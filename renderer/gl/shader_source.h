@@ -26,11 +26,14 @@ struct ShaderDiagnostic {
 
 /// The whole text of one shader stage, ready for the driver. Three things are done, and no other
 /// language is put on top of GLSL:
-/// - `#include "x.glsl"` is resolved, relative to the including file and then to shaders/include/;
+/// - `#include "x.glsl"` is resolved, relative to the including file, to shaders/ or to
+///   shaders/include/;
 ///   a file is included once per shader, as if each had a guard; cycles are errors. An #include
 ///   within #if is refused: files are included whatever the options say.
-/// - `#version 450 core` and the defines come first; `#line` keeps the files' own line numbers.
+/// - `#version 450 core` and the defines come first; `#line` numbers lines and files.
 /// - the driver's log is mapped back to files and lines.
+/// The line number holds the file as well: line 41 of file 2 is `#line 200041 2`. Mesa forgets the
+/// file for errors within expressions and says 0 (22.3: the parser's default location has none).
 class ShaderSource {
 public:
     /// @param path relative to shaders/; its extension (.vert .tesc .tese .geom .frag .comp) names
@@ -47,13 +50,15 @@ public:
         return {mFiles.begin() + kFirstFile, mFiles.end()};
     }
 
-    /// Understands Mesa "2:41(3): error: …", NVIDIA "2(41) : error …", others "ERROR: 2:41: …".
+    /// Understands Mesa "2:200041(3): error: …", NVIDIA "2(200041) : error …", others
+    /// "ERROR: 2:200041: …"; with plain line numbers as well.
     /// Lines in other forms are kept without file and line.
     [[nodiscard]] std::vector<ShaderDiagnostic> translateLog(std::string_view log) const;
 
 private:
     class Resolver;
     static constexpr int kFirstFile = 1;
+    static constexpr int kLinesPerFile = 100000;
 
     unsigned mStage = 0;
     std::string mText;
