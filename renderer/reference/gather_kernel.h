@@ -30,6 +30,7 @@ struct PatchBlock {
     alignas(32) float yy[kPatchBlock], yz[kPatchBlock], zz[kPatchBlock];
     alignas(32) float variance[kPatchBlock]; ///< trace of the covariance
     alignas(32) float flux[kPatchBlock][4];
+    const float* corners; ///< [count][3][3] of triangular patches, mm; null: others
 };
 
 struct ExitBlock {

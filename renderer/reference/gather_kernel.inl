@@ -175,6 +175,85 @@ Float8 discMean(const Pair& pair, float center, float radius, float steepness, f
     return mean.finish();
 }
 
+/// The mean of the kernel over a disc of variance q = spread^2 about d' = center, by as many
+/// distances as it takes.
+Float8 footprintMean(const Pair& pair, float center, float spread, float steepness, float reach) {
+    if (steepness * spread < kGentleChange && spread <= kGentleAngle * center) {
+        const float squared = center * center + spread * spread;
+        const float deviation =
+            spread * __builtin_sqrtf(2.0f * center * center + 0.33333333f * spread * spread);
+        const float minus = __builtin_sqrtf(maximum(squared - deviation, 0.0f));
+        const float plus = __builtin_sqrtf(squared + deviation);
+        return pair.kernel(minimum(minus, reach), minimum(plus, reach)) *
+               join(minus <= reach ? 0.5f : 0.0f, plus <= reach ? 0.5f : 0.0f);
+    }
+    return discMean(pair, center, kSqrt2 * spread, steepness, reach);
+}
+
+/// An exit point near a triangular patch: there neither a disc nor a covariance is the triangle,
+/// and the kernel changes most. The triangle is cut in four until its parts are far for their size,
+/// or so small that the kernel hardly changes over them.
+struct NearTriangle {
+    const Pair& pair;
+    const float* patchSteepness;
+    const float* exitSteepness;
+    const float* exitPosition;
+    float reach;
+
+    static constexpr int kDeepest = 5;
+    static constexpr float kNear = 6.0f;  ///< distance in spreads at which a part counts as far
+    static constexpr float kFlat = 0.03f; ///< change of the kernel over a part that is small
+
+    struct Corners {
+        Float4 a, b, c; ///< relative to the exit point
+    };
+
+    static float dot(Float4 a, Float4 b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+    [[nodiscard]] Float8 mean(const Corners& t, int depth) const {
+        const Float4 m = (t.a + t.b + t.c) * (1.0f / 3.0f);
+        const Float4 da = t.a - m;
+        const Float4 db = t.b - m;
+        const Float4 dc = t.c - m;
+        const float variance = (dot(da, da) + dot(db, db) + dot(dc, dc)) / 12.0f;
+        const float d2 = dot(m, m);
+        const float steepest = patchSteepness[0] + exitSteepness[0];
+        if (depth < kDeepest && d2 < kNear * kNear * variance &&
+            steepest * steepest * variance > kFlat * kFlat) {
+            const Float4 ab = (t.a + t.b) * 0.5f;
+            const Float4 bc = (t.b + t.c) * 0.5f;
+            const Float4 ca = (t.c + t.a) * 0.5f;
+            return (mean({t.a, ab, ca}, depth + 1) + mean({ab, t.b, bc}, depth + 1) +
+                    mean({ca, bc, t.c}, depth + 1) + mean({ab, bc, ca}, depth + 1)) *
+                   0.25f;
+        }
+        // As a round patch on the triangle's plane.
+        const Float4 normal{db[1] * dc[2] - db[2] * dc[1], db[2] * dc[0] - db[0] * dc[2],
+                            db[0] * dc[1] - db[1] * dc[0], 0.0f};
+        const float above = dot(normal, m);
+        const float scale = dot(normal, normal) * d2;
+        const float q =
+            scale > 0.0f ? variance * maximum(1.0f - above * above / scale, 0.0f) : variance;
+        const float center = __builtin_sqrtf(d2 + variance - q);
+        const float spread = __builtin_sqrtf(q);
+        const float nearest = maximum(center - kSqrt2 * spread, 0.0f);
+        if (nearest > reach) {
+            return Float8{};
+        }
+        const float steepness = patchSteepness[lookUp(nearest, pair.patchProfiles).knot] +
+                                exitSteepness[lookUp(nearest, pair.exitProfiles).knot];
+        return footprintMean(pair, center, spread, steepness, reach);
+    }
+
+    [[nodiscard]] Float8 mean(const float* corners) const {
+        const auto relative = [&](const float* p) {
+            return Float4{p[0] - exitPosition[0], p[1] - exitPosition[1], p[2] - exitPosition[2],
+                          0.0f};
+        };
+        return mean({relative(corners), relative(corners + 3), relative(corners + 6)}, 0);
+    }
+};
+
 /// Squared distance of a point from the bounds of a block.
 float squaredDistance(const float* p, const PatchBlock& block) {
     float sum = 0.0f;
@@ -304,7 +383,14 @@ std::uint64_t gatherFootprints(const ExitBlock& exits, const PatchBlock& patches
                 steepnessOf(patches.profiles, j)[lookUp(nearest[j], patches.profiles).knot] +
                 exitSteepness[lookUp(nearest[j], exits.profiles).knot];
             const Float4 flux = load4(patches.flux[j]);
-            if (steepness * spread[j] < kGentleChange && spread[j] <= kGentleAngle * center[j]) {
+            if (patches.corners != nullptr && center[j] * center[j] < NearTriangle::kNear *
+                                                                          NearTriangle::kNear *
+                                                                          patches.variance[j]) {
+                const NearTriangle triangle{pair, steepnessOf(patches.profiles, j), exitSteepness,
+                                            p, reach};
+                sum += triangle.mean(patches.corners + 9 * j) * join(flux, flux);
+            } else if (steepness * spread[j] < kGentleChange &&
+                       spread[j] <= kGentleAngle * center[j]) {
                 const Float8 weights =
                     join(minus[j] <= reach ? 0.5f : 0.0f, plus[j] <= reach ? 0.5f : 0.0f);
                 sum += pair.kernel(minimum(minus[j], reach), minimum(plus[j], reach)) * weights *

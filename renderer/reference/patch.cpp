@@ -4,13 +4,9 @@
 
 namespace celadon {
 
-Patch makeTexelPatch(glm::vec3 positionMm, glm::vec3 normal, glm::vec3 flux, float crossSectionMm2,
-                     float cosine, glm::vec2 uv, int material) {
-    // Beyond the clamp a texel is seen edge on: how far it really reaches is unknown.
-    constexpr float kLeastCosine = 0.1f;
-    const float c = std::max(kLeastCosine, cosine);
-    const float variance = crossSectionMm2 / 12.0f * (1.0f + 1.0f / (c * c));
-    const float h = 0.5f * variance;
+Patch makePatch(glm::vec3 positionMm, glm::vec3 normal, glm::vec3 flux, float varianceMm2,
+                glm::vec2 uv, int material) {
+    const float h = 0.5f * varianceMm2;
     const glm::vec3 n = normal;
     Patch patch;
     patch.positionMm = positionMm;
@@ -21,6 +17,15 @@ Patch makeTexelPatch(glm::vec3 positionMm, glm::vec3 normal, glm::vec3 flux, flo
     patch.uv = uv;
     patch.material = material;
     return patch;
+}
+
+Patch makeTexelPatch(glm::vec3 positionMm, glm::vec3 normal, glm::vec3 flux, float crossSectionMm2,
+                     float cosine, glm::vec2 uv, int material) {
+    // Beyond the clamp a texel is seen edge on: how far it really reaches is unknown.
+    constexpr float kLeastCosine = 0.1f;
+    const float c = std::max(kLeastCosine, cosine);
+    const float variance = crossSectionMm2 / 12.0f * (1.0f + 1.0f / (c * c));
+    return makePatch(positionMm, normal, flux, variance, uv, material);
 }
 
 } // namespace celadon

@@ -19,6 +19,9 @@ struct Patch {
     int material = 0; ///< index into the materials, >= 0
 };
 
+/// The corners of a patch that is a triangle, for exit points near it. mm.
+using PatchTriangle = std::array<glm::vec3, 3>;
+
 /// Where the exitance is wanted.
 struct ExitPoint {
     glm::vec3 positionMm{0.0f};
@@ -26,10 +29,15 @@ struct ExitPoint {
     int material = -1; ///< index into the materials; < 0: background, exitance 0
 };
 
-/// The patch that a texel of a light view sees. Covariance: half of s2 (I - n n^T) with
-/// s2 = a / 12 (1 + 1 / max(0.1, cosine)^2), the mean spread of a square that is stretched along
-/// the slope by 1 / cosine, made isotropic on the tangent plane.
-/// @param flux             W per channel, transmitted
+/// A patch that spreads evenly in all directions of its tangent plane: covariance half of
+/// variance (I - n n^T).
+/// @param flux         W per channel, transmitted
+/// @param varianceMm2  mean square distance of its positions from their mean
+[[nodiscard]] Patch makePatch(glm::vec3 positionMm, glm::vec3 normal, glm::vec3 flux,
+                              float varianceMm2, glm::vec2 uv, int material);
+
+/// The patch that a texel of a light view sees. Its variance is a / 12 (1 + 1 / max(0.1,
+/// cosine)^2): that of a square stretched along the slope by 1 / cosine.
 /// @param crossSectionMm2  a, the texel's area on a plane that faces the light
 /// @param cosine           of the angle between the surface's normal and the light
 [[nodiscard]] Patch makeTexelPatch(glm::vec3 positionMm, glm::vec3 normal, glm::vec3 flux,

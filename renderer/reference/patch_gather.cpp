@@ -1,19 +1,16 @@
 #include "renderer/reference/patch_gather.h"
 
 #include "renderer/reference/gather_kernel.h"
+#include "renderer/reference/spatial_order.h"
 #include "subedit/assert.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <mutex>
 #include <numbers>
-#include <tuple>
 
 namespace celadon {
 
@@ -24,74 +21,29 @@ using subedit::MaterialMap;
 constexpr std::size_t kExitBlock = 512;
 constexpr double kSquareMillimetersPerSquareMeter = 1e6;
 
-/// Tightly packed bounds of one run of points.
-struct Bounds {
-    glm::vec3 low{std::numeric_limits<float>::infinity()};
-    glm::vec3 high{-std::numeric_limits<float>::infinity()};
-
-    void add(glm::vec3 p) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    [[nodiscard]] float squaredDistance(const Bounds& other) const {
-        const glm::vec3 gap =
-            glm::max(glm::max(low - other.high, other.low - high), glm::vec3(0.0f));
-        return glm::dot(gap, gap);
-    }
-};
-
-/// Spreads the lowest 16 bits to every third bit.
-std::uint64_t spreadBits(std::uint64_t v) {
-    v &= 0xffff;
-    v = (v | (v << 16)) & 0x0000ff0000ffULL;
-    v = (v | (v << 8)) & 0x00f00f00f00fULL;
-    v = (v | (v << 4)) & 0x0c30c30c30c3ULL;
-    v = (v | (v << 2)) & 0x249249249249ULL;
-    return v;
-}
-
-std::uint64_t mortonKey(glm::vec3 position, const Bounds& bounds) {
-    std::uint64_t key = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const float extent = bounds.high[axis] - bounds.low[axis];
-        const float unit = extent > 0.0f ? (position[axis] - bounds.low[axis]) / extent : 0.0f;
-        const float cell = std::min(std::max(unit * 65535.0f, 0.0f), 65535.0f);
-        key |= spreadBits(static_cast<std::uint64_t>(cell)) << axis;
-    }
-    return key;
-}
-
 /// A run [begin, end) of the sorted order: near each other, of one material.
 struct Block {
     std::size_t begin, end;
     int material;
-    Bounds bounds;
+    PointBounds bounds;
     float largestSpread = 0.0f;
 };
 
 /// The chosen points in an order of material first and place second.
 template<typename Point>
-std::vector<std::uint32_t> spatialOrder(std::span<const Point> points,
-                                        std::vector<std::uint32_t> chosen) {
-    Bounds bounds;
+std::vector<std::uint32_t> blockOrder(std::span<const Point> points,
+                                      std::span<const std::uint32_t> chosen) {
+    std::vector<Point> picked;
+    picked.reserve(chosen.size());
     for (const std::uint32_t i : chosen) {
-        bounds.add(points[i].positionMm);
+        picked.push_back(points[i]);
     }
-    struct Keyed {
-        std::uint64_t morton;
-        std::uint32_t index;
-        int material;
-    };
-    std::vector<Keyed> keyed;
-    keyed.reserve(chosen.size());
-    for (const std::uint32_t i : chosen) {
-        keyed.push_back({mortonKey(points[i].positionMm, bounds), i, points[i].material});
+    std::vector<std::uint32_t> order = spatialOrder(std::span<const Point>(picked));
+    for (std::uint32_t& i : order) {
+        i = chosen[i];
     }
-    std::ranges::sort(keyed, [](const Keyed& a, const Keyed& b) {
-        return std::tie(a.material, a.morton, a.index) < std::tie(b.material, b.morton, b.index);
-    });
-    std::ranges::transform(keyed, chosen.begin(), &Keyed::index);
-    return chosen;
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return points[i].material; });
+    return order;
 }
 
 template<typename Point>
@@ -194,7 +146,8 @@ gather::GatherFunction chooseKernel([[maybe_unused]] bool forcePortable) {
 
 /// What a worker thread keeps between blocks.
 struct Worker {
-    gather::PatchBlock patchBlock;
+    gather::PatchBlock patchBlock{};
+    std::vector<PatchTriangle> corners;
     ProfileStorage patchProfiles;
     ProfileStorage exitProfiles;
     std::vector<float> positions;
@@ -229,6 +182,8 @@ private:
 GatherResult gatherExitance(std::span<const ExitPoint> exitPoints, std::span<const Patch> patches,
                             std::span<const MaterialPointer> materials,
                             const GatherOptions& options) {
+    static_assert(sizeof(PatchTriangle) == 9 * sizeof(float));
+    CELADON_ASSERT(options.triangles.empty() || options.triangles.size() == patches.size());
     GatherResult result;
     result.exitance.assign(exitPoints.size(), glm::vec3(0.0f));
 
@@ -240,7 +195,7 @@ GatherResult gatherExitance(std::span<const ExitPoint> exitPoints, std::span<con
             chosen.push_back(i);
         }
     }
-    const std::vector<std::uint32_t> patchOrder = spatialOrder(patches, std::move(chosen));
+    const std::vector<std::uint32_t> patchOrder = blockOrder<Patch>(patches, chosen);
     std::vector<Block> patchBlocks =
         splitIntoBlocks(patches, std::span(patchOrder), gather::kPatchBlock);
     for (Block& block : patchBlocks) {
@@ -249,14 +204,14 @@ GatherResult gatherExitance(std::span<const ExitPoint> exitPoints, std::span<con
                 std::max(block.largestSpread, std::sqrt(traceOf(patches[patchOrder[i]])));
         }
     }
-    chosen = {};
+    chosen.clear();
     for (std::uint32_t i = 0; i < exitPoints.size(); ++i) {
         CELADON_ASSERT(exitPoints[i].material < static_cast<int>(materials.size()));
         if (exitPoints[i].material >= 0) {
             chosen.push_back(i);
         }
     }
-    const std::vector<std::uint32_t> exitOrder = spatialOrder(exitPoints, std::move(chosen));
+    const std::vector<std::uint32_t> exitOrder = blockOrder<ExitPoint>(exitPoints, chosen);
     const std::vector<Block> exitBlocks =
         splitIntoBlocks(exitPoints, std::span(exitOrder), kExitBlock);
 
@@ -295,6 +250,13 @@ GatherResult gatherExitance(std::span<const ExitPoint> exitPoints, std::span<con
                 return;
             }
             fillPatchBlock(worker.patchBlock, patchBlock, patches, patchOrder);
+            if (!options.triangles.empty()) {
+                worker.corners.clear();
+                for (std::size_t i = patchBlock.begin; i < patchBlock.end; ++i) {
+                    worker.corners.push_back(options.triangles[patchOrder[i]]);
+                }
+                worker.patchBlock.corners = &worker.corners.front()[0].x;
+            }
             worker.patchBlock.profiles = worker.patchProfiles.fill(
                 material, patchBlock.end - patchBlock.begin,
                 [&](std::size_t i) { return patches[patchOrder[patchBlock.begin + i]].uv; });

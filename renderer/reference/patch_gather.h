@@ -20,6 +20,10 @@ struct GatherOptions {
     /// patch's footprint: a disc with the patch's covariance, seen in the direction of the pair.
     bool pointSamples = false;
 
+    /// One per patch, or none: patches that are triangles are then integrated as such by exit
+    /// points so near that their shape matters, as the covariance alone cannot.
+    std::span<const PatchTriangle> triangles = {};
+
     /// The plain instruction set even where AVX2 and FMA are present; for tests.
     bool forcePortable = false;
 
