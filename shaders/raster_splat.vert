@@ -21,6 +21,7 @@ layout(binding = 4) uniform sampler2D nodeExtents;
 layout(binding = 5) uniform sampler2D nodeKepts;
 layout(binding = 6) uniform sampler2D rangeTable; // Rbar over (log2 T, material)
 layout(binding = 7) uniform sampler2DArray nodeProfiles;
+layout(binding = 26) uniform sampler2D tileRanges; // view depths in tiles of 8 x 8 pixels and up
 
 out Splat {
     flat vec4 rectangle; // clip coordinates: low x, low y, high x, high y; empty: cull
@@ -40,13 +41,34 @@ float minimalRadius(float T, int material) {
     return textureLod(rangeTable, vec2((x * (size.x - 1.0) + 0.5) / size.x, (float(material) + 0.5) / size.y), 0.0).r;
 }
 
-// R_min^k: R_P Rbar(T_k), T_k the pixels of splatting level k in one R_P (eq. 14).
-float ringStart(int k, float R_P, float depth, int material) {
+// R_min^k: R_P Rbar(T_k), T_k the pixels of splatting level k in one R_P (eq. 14). Where Rbar is 1 no
+// distance is far enough for the level: it is left out, and the level before it reaches R_cut. (To
+// the letter, eq. 13 would hand everything beyond R_P to the coarsest level, however coarse.)
+float ringStart(int k, float R_P, float R_cut, float depth, int material) {
     if (k == 0) {
         return 0.0;
     }
     float T = R_P / (pixelWidthMm(depth) * float(1 << k));
-    return R_P * minimalRadius(T, material);
+    float start = minimalRadius(T, material);
+    return start < 0.999 ? R_P * start : R_cut;
+}
+
+// Whether some pixel within the rectangle (in pixels of level 0) lies between the two view depths.
+bool meetsSurface(vec4 pixels, float nearest, float farthest) {
+    float extent = max(pixels.z - pixels.x, pixels.w - pixels.y);
+    int mip = clamp(int(ceil(log2(max(extent / 16.0, 1.0)))), 0, textureQueryLevels(tileRanges) - 1);
+    float tileSize = float(8 << mip);
+    ivec2 low = ivec2(pixels.xy / tileSize);
+    ivec2 high = min(ivec2(pixels.zw / tileSize), textureSize(tileRanges, mip) - 1);
+    for (int y = low.y; y <= high.y; ++y) {
+        for (int x = low.x; x <= high.x; ++x) {
+            vec2 range = texelFetch(tileRanges, ivec2(x, y), mip).xy;
+            if (range.x <= farthest && range.y >= nearest) {
+                return true;
+            }
+        }
+    }
+    return false;
 }
 
 void main() {
@@ -72,11 +94,11 @@ void main() {
     float high = R_cut;
     if (isMultiresolution()) {
         for (int j = 1; j <= k; ++j) {
-            low = max(low, ringStart(j, R_P, depth, material));
+            low = max(low, ringStart(j, R_P, R_cut, depth, material));
         }
         low = min(low, R_cut);
         if (k + 1 < splattingLevels()) {
-            high = min(max(low, ringStart(k + 1, R_P, depth, material)), R_cut);
+            high = min(max(low, ringStart(k + 1, R_P, R_cut, depth, material)), R_cut);
         }
     }
 
@@ -115,7 +137,9 @@ void main() {
         vec2 size = frame.frameSize.zw / float(1 << k);
         // A representative pixel may lie anywhere in its texel: one pixel of margin.
         pixels = vec4(clamp(pixels.xy - 1.0, vec2(0.0), size), clamp(pixels.zw + 1.0, vec2(0.0), size));
-        splat.rectangle = pixels / size.xyxy * 2.0 - 1.0;
+        if (meetsSurface(pixels * float(1 << k), -inView.z - high, -inView.z + high)) {
+            splat.rectangle = pixels / size.xyxy * 2.0 - 1.0;
+        }
     }
     gl_Position = vec4(0.0);
 }

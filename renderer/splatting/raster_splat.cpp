@@ -37,7 +37,7 @@ void RasterSplat::splat(int splattingLevel, const SplattingBuffer& view,
         gl::PassState::covering(mFramebuffers[static_cast<std::size_t>(splattingLevel)]);
     state.blend = gl::Blend::Additive;
     state.apply();
-    // Units 0 to 5 are the sample's in the vertex shader, 24 and 25 the pixel's.
+    // Units 0 to 5 are the sample's in the vertex shader, 24 to 26 the pixels'.
     buffer.positions().bind(0);
     buffer.fluxes().bind(1);
     buffer.surfaces().bind(2);
@@ -50,6 +50,7 @@ void RasterSplat::splat(int splattingLevel, const SplattingBuffer& view,
     }
     view.positions().bind(24);
     view.surfaces().bind(25);
+    view.tileRanges().bind(26);
     for (int level = 0; level < buffer.levels(); ++level) {
         const gl::Program& program = level > 0 && mNode ? *mNode : mLeaf;
         program.use();

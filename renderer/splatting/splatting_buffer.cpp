@@ -4,13 +4,16 @@
 #include "renderer/gl/pass_state.h"
 #include "renderer/splatting/irradiance_buffer.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 
 namespace celadon {
 
 namespace {
 
 constexpr int kGeometryTargets = 3; ///< of the targets, those with mips
+constexpr int kTilePx = 8;          ///< as tile_range.comp has it
 
 glm::ivec2 padded(glm::ivec2 size, int levels) {
     const int unit = 1 << (levels - 1);
@@ -40,7 +43,14 @@ SplattingBuffer::SplattingBuffer(const gl::ShaderLibrary& shaders, int materialC
       mFrameBlock("frame", sizeof(blocks::FrameBlock), gl::BufferUse::Update),
       mDraw("splatting buffer", shaders, {"surface.vert", "splatting_buffer.frag"},
             {{"CAMERA", "1"}, {"MATERIAL_COUNT", std::to_string(materialCount)}}),
-      mMip("median mip", shaders, {"median_mip.comp"}) {
+      mMip("median mip", shaders, {"median_mip.comp"}),
+      mTileRange("tile range", shaders, {"tile_range.comp"}) {
+    // Powers of two, so that every level is covered by the next.
+    const glm::uvec2 tiles((mPaddedSize + kTilePx - 1) / kTilePx);
+    const glm::ivec2 tileSize(std::bit_ceil(tiles.x), std::bit_ceil(tiles.y));
+    mTileRanges = gl::Texture::make2d("tile ranges", GL_RG32F, tileSize,
+                                      std::bit_width(std::bit_floor(
+                                          static_cast<unsigned>(std::min(tileSize.x, tileSize.y)))));
     const char* const names[kTargets] = {"positions", "normals",     "surface points",
                                          "lobes",     "base colors", "emission"};
     std::vector<gl::Attachment> colors;
@@ -84,6 +94,16 @@ void SplattingBuffer::buildMips(double clusterDepthMm) {
         }
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
         dispatchOver(mTargets[0].size2d(level));
+    }
+    mTileRange.use();
+    mTargets[0].bind(0);
+    mTargets[2].bind(1);
+    mTileRanges.bind(2);
+    for (int level = 0; level < mTileRanges.levels(); ++level) {
+        mTileRange.set(0, level - 1);
+        mTileRanges.bindImage(0, level, GL_WRITE_ONLY);
+        glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+        dispatchOver(mTileRanges.size2d(level));
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
