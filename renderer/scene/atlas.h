@@ -28,6 +28,7 @@ struct AtlasMesh {
 
 struct AtlasReport {
     int charts = 0;
+    int gutterTexels = 0;  ///< held; less than asked for only if so many charts leave no choice
     double coverage = 0.0; ///< part of the unit square that triangles cover
     double areaDistortionMean =
         0.0; ///< area-weighted mean of max(s, 1/s), s = relative texel density (area ratio), >= 1

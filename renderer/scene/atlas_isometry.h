@@ -1,0 +1,34 @@
+#pragma once
+
+#include "renderer/scene/atlas_rest_shape.h"
+
+#include <Eigen/SparseCholesky>
+
+#include <vector>
+
+/// Descent to maps as near to isometry as a chart allows.
+namespace celadon::atlas {
+
+using Factor = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
+
+/// Local/global iterations of as-rigid-as-possible parametrization (Liu et al. 2008, "A
+/// local/global approach to mesh parameterization", eqs. 3-6). Quick and free of parameters, but
+/// triangles may turn over.
+/// @param factor of laplacian(mesh, rest)
+void relaxRigid(const ChartMesh& mesh, const std::vector<RestTriangle>& rest, const Factor& factor,
+                int maxIterations, Planar& uv);
+
+/// Minimizes the symmetric Dirichlet energy sum A (|J|^2 + |J^-1|^2) (Smith and Schaefer 2015,
+/// "Bijective parameterization with free boundaries", eq. 1), which weighs shrinking and stretching
+/// alike and is infinite for a triangle about to turn over; every step stays short of that. L-BFGS
+/// over the Laplacian as the metric.
+/// @param leastGain stop when an iteration lowers the energy by a smaller part than this
+/// @param uv        every triangle is positively oriented, before and after
+void relaxSymmetric(const ChartMesh& mesh, const std::vector<RestTriangle>& rest,
+                    const Factor& factor, int maxIterations, double leastGain, Planar& uv);
+
+/// Every triangle has a positive area, by a margin above rounding.
+[[nodiscard]] bool isOriented(const ChartMesh& mesh, const std::vector<RestTriangle>& rest,
+                              const Planar& uv);
+
+} // namespace celadon::atlas
