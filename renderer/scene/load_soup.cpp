@@ -155,13 +155,16 @@ void forgetIncompleteUvs(std::vector<Corner>& corners, const std::filesystem::pa
 }
 
 /// Forgets normals that are no direction.
-void forgetUselessNormals(std::vector<Corner>& corners, const PolygonSoup& soup) {
+void forgetUselessNormals(std::vector<Corner>& corners, PolygonSoup& soup) {
+    for (glm::vec3& normal : soup.normals) {
+        const double length = glm::length(glm::dvec3(normal));
+        if (!(length > 1e-20) || !std::isfinite(length)) {
+            normal = glm::vec3(0.0f);
+        }
+    }
     for (Corner& corner : corners) {
-        if (corner.normal != PolygonSoup::kNone) {
-            const double length = glm::length(glm::dvec3(soup.normals[corner.normal]));
-            if (!(length > 1e-20) || !std::isfinite(length)) {
-                corner.normal = PolygonSoup::kNone;
-            }
+        if (corner.normal != PolygonSoup::kNone && soup.normals[corner.normal] == glm::vec3(0.0f)) {
+            corner.normal = PolygonSoup::kNone;
         }
     }
 }
