@@ -16,7 +16,7 @@ std::string vectorText(const glm::dvec3& v) {
 }
 
 std::string nameText(const std::string& name) {
-    return name.empty() ? "" : " '" + name + "'";
+    return name.empty() ? "" : fmt::format(" '{}'", name);
 }
 
 std::string pictureText(const Scene& scene, const TextureReference& texture) {

@@ -12,7 +12,7 @@
 namespace celadon::loaders {
 
 std::string quoted(const std::filesystem::path& file) {
-    return "'" + file.string() + "'";
+    return fmt::format("'{}'", file.string());
 }
 
 std::string readFile(const std::filesystem::path& file, std::uintmax_t maxBytes) {
