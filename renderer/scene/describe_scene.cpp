@@ -16,7 +16,7 @@ std::string vectorText(const glm::dvec3& v) {
 }
 
 std::string nameText(const std::string& name) {
-    return name.empty() ? "" : " '" + name + "'";
+    return name.empty() ? "" : fmt::format(" '{}'", name);
 }
 
 std::string pictureText(const Scene& scene, const TextureReference& texture) {
@@ -119,9 +119,10 @@ std::vector<std::string> describeScene(const Scene& scene) {
                         : std::string("millimeters per unit: not given by the file"));
     for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
         const Mesh& mesh = scene.meshes[i];
-        lines.push_back(fmt::format("mesh {}{}: {} triangles, {} vertices, {}, material {}", i,
+        lines.push_back(fmt::format("mesh {}{}: {} triangle{}, {} vertices, {}, material {}", i,
                                     nameText(mesh.name), mesh.triangleCount(),
-                                    mesh.positions.size(), uvText(mesh), mesh.material));
+                                    mesh.triangleCount() == 1 ? "" : "s", mesh.positions.size(),
+                                    uvText(mesh), mesh.material));
     }
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         lines.push_back(fmt::format("material {}{}: {}", i, nameText(scene.materials[i].name),

@@ -12,7 +12,7 @@
 namespace celadon::loaders {
 
 std::string quoted(const std::filesystem::path& file) {
-    return "'" + file.string() + "'";
+    return fmt::format("'{}'", file.string());
 }
 
 std::string readFile(const std::filesystem::path& file, std::uintmax_t maxBytes) {
@@ -61,13 +61,12 @@ std::string readFile(const std::filesystem::path& file, std::uintmax_t maxBytes)
     return content;
 }
 
-std::string excerpt(std::string_view text) {
-    constexpr std::size_t kLongest = 40;
+std::string excerpt(std::string_view text, std::size_t longest) {
     std::string result;
-    for (const char c : text.substr(0, kLongest)) {
+    for (const char c : text.substr(0, longest)) {
         result += (c >= 0x20 && c < 0x7f) ? c : '?';
     }
-    if (text.size() > kLongest) {
+    if (text.size() > longest) {
         result += "...";
     }
     return result;

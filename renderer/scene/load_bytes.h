@@ -21,8 +21,8 @@ inline constexpr std::uint64_t kMaxElements = 30'000'000;
 [[nodiscard]] std::string readFile(const std::filesystem::path& file,
                                    std::uintmax_t maxBytes = kMaxFileBytes);
 
-/// Text from a file, made fit for one line of a message: at most 40 characters, printable.
-[[nodiscard]] std::string excerpt(std::string_view text);
+/// Text from a file, made fit for one line of a message: cut to `longest` characters, printable.
+[[nodiscard]] std::string excerpt(std::string_view text, std::size_t longest = 40);
 
 /// "1 triangle", "12 triangles".
 [[nodiscard]] std::string counted(std::uint64_t count, std::string_view noun);

@@ -120,7 +120,7 @@ std::vector<Element> readElements(const GltfDocument& document, int index, int c
 std::string accessorPlace(const GltfDocument& document, int accessor) {
     const std::string name = excerpt(accessorAt(document, accessor).name);
     return fmt::format("{}, accessor {}{}", quoted(document.file), accessor,
-                       name.empty() ? "" : " '" + name + "'");
+                       name.empty() ? "" : fmt::format(" '{}'", name));
 }
 
 std::vector<glm::vec2> readVec2(const GltfDocument& document, int accessor) {

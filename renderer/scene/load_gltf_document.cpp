@@ -95,8 +95,15 @@ void listImages(const JsonElement& root, GltfDocument& document) {
 
 /// Keeps what we read, so that nothing else can trip tinygltf.
 std::string essentialJson(nlohmann::json& json) {
+    nlohmann::json none = nlohmann::json::array();
     for (const char* const name : {"buffers", "images", "animations", "extras"}) {
         json.erase(name);
+    }
+    // glTF lets them be left out, for identities; tinygltf does not, but takes -1.
+    for (nlohmann::json& skin : json.contains("skins") ? json["skins"] : none) {
+        if (!skin.contains("inverseBindMatrices")) {
+            skin["inverseBindMatrices"] = -1;
+        }
     }
     return json.dump();
 }
@@ -136,10 +143,10 @@ void openGltf(const std::filesystem::path& file, std::string_view content, GltfD
         error = exception.what();
     }
     if (!done) {
-        throw InputError(
-            quoted(file),
-            fmt::format("tinygltf refuses it ({})", excerpt(error.substr(0, error.find('\n')))),
-            "export it again");
+        throw InputError(quoted(file),
+                         fmt::format("tinygltf refuses it ({})",
+                                     excerpt(error.substr(0, error.find('\n')), 120)),
+                         "export it again");
     }
 }
 

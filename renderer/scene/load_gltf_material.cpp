@@ -24,7 +24,7 @@ public:
         for (std::size_t i = 0; i < mDocument.model.materials.size(); ++i) {
             mPlace = fmt::format("{}, material {}", quoted(mDocument.file), i);
             const std::string& name = mDocument.model.materials[i].name;
-            mPlace += name.empty() ? "" : " '" + excerpt(name) + "'";
+            mPlace += name.empty() ? "" : fmt::format(" '{}'", excerpt(name));
             mScene.materials.push_back(convert(mDocument.model.materials[i]));
         }
         SurfaceMaterial none; // what glTF says for a primitive without a material
@@ -185,8 +185,9 @@ private:
         }
         result = kUnreadable;
         const GltfImage& source = mDocument.images[index];
-        const std::string place = fmt::format("{}, image {}{}", quoted(mDocument.file), index,
-                                              source.name.empty() ? "" : " '" + source.name + "'");
+        const std::string place =
+            fmt::format("{}, image {}{}", quoted(mDocument.file), index,
+                        source.name.empty() ? "" : fmt::format(" '{}'", source.name));
         try {
             Image picture = decode(source, place);
             result = static_cast<int>(mScene.images.size());

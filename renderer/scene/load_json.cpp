@@ -196,7 +196,7 @@ std::vector<JsonElement> JsonElement::objects(const char* name, std::string_view
         }
         const auto itsName = item.find("name");
         if (itsName != item.end() && itsName->is_string()) {
-            place += " '" + excerpt(itsName->get_ref<const std::string&>()) + "'";
+            place += fmt::format(" '{}'", excerpt(itsName->get_ref<const std::string&>()));
         }
         result.emplace_back(*mFile, item, std::move(place));
     }

@@ -44,7 +44,8 @@ Loader loaderFor(const std::filesystem::path& file) {
         if (extension == format.extension) {
             return format.load;
         }
-        known += (known.empty() ? "" : " ") + std::string(format.extension);
+        known += known.empty() ? "" : " ";
+        known += format.extension;
     }
     throw InputError(loaders::quoted(file),
                      extension.empty() ? "has no extension that tells its format"

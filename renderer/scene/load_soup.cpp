@@ -28,6 +28,10 @@ std::uint64_t hashOf(const glm::vec3& p) {
     return mixBits(bits(p.x) | (bits(p.y) << 32)) ^ mixBits(bits(p.z) + 0x9e3779b97f4a7c15ull);
 }
 
+std::uint64_t hashOf(const glm::vec2& p) {
+    return hashOf(glm::vec3(p, 0.0f));
+}
+
 std::uint64_t hashOf(const Corner& c) {
     return mixBits(c.position | (std::uint64_t{c.uv} << 32)) ^
            mixBits(c.normal + 0x9e3779b97f4a7c15ull);
@@ -60,6 +64,17 @@ public:
 private:
     std::vector<std::uint32_t> mSlots;
 };
+
+template<typename Vector>
+std::vector<std::uint32_t> firstEqualOf(std::span<const Vector> values) {
+    std::vector<std::uint32_t> first(values.size());
+    Numbering<Vector> numbering(values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        first[i] = numbering.find(values[i], static_cast<std::uint32_t>(i),
+                                  [&](std::uint32_t n) { return values[n]; });
+    }
+    return first;
+}
 
 std::string placeOf(const PolygonSoup& soup, const std::filesystem::path& file, std::size_t face) {
     return soup.faceLines.empty() ? fmt::format("{}, face {}", quoted(file), face)
@@ -139,15 +154,30 @@ void forgetIncompleteUvs(std::vector<Corner>& corners, const std::filesystem::pa
     }
 }
 
-/// Forgets normals that are no direction, and makes equal ones of corners one number.
-void forgetUselessNormals(std::vector<Corner>& corners, const PolygonSoup& soup) {
-    for (Corner& corner : corners) {
-        if (corner.normal != PolygonSoup::kNone) {
-            const double length = glm::length(glm::dvec3(soup.normals[corner.normal]));
-            if (!(length > 1e-20) || !std::isfinite(length)) {
-                corner.normal = PolygonSoup::kNone;
-            }
+/// Forgets normals that are no direction.
+void forgetUselessNormals(std::vector<Corner>& corners, PolygonSoup& soup) {
+    for (glm::vec3& normal : soup.normals) {
+        const double length = glm::length(glm::dvec3(normal));
+        if (!(length > 1e-20) || !std::isfinite(length)) {
+            normal = glm::vec3(0.0f);
         }
+    }
+    for (Corner& corner : corners) {
+        if (corner.normal != PolygonSoup::kNone && soup.normals[corner.normal] == glm::vec3(0.0f)) {
+            corner.normal = PolygonSoup::kNone;
+        }
+    }
+}
+
+/// Many exporters write a normal and a texture coordinate anew for each corner: equal ones get one
+/// number, so that corners share vertices.
+void numberEqualValues(std::vector<Corner>& corners, const PolygonSoup& soup) {
+    const std::vector<std::uint32_t> normals = firstEqualOf(std::span(soup.normals));
+    const std::vector<std::uint32_t> uvs = firstEqualOf(std::span(soup.uvs));
+    for (Corner& corner : corners) {
+        corner.normal =
+            corner.normal == PolygonSoup::kNone ? corner.normal : normals[corner.normal];
+        corner.uv = corner.uv == PolygonSoup::kNone ? corner.uv : uvs[corner.uv];
     }
 }
 
@@ -201,13 +231,7 @@ glm::dvec3 triangleNormal(const glm::vec3& a, const glm::vec3& b, const glm::vec
 }
 
 std::vector<std::uint32_t> firstEqual(std::span<const glm::vec3> positions) {
-    std::vector<std::uint32_t> first(positions.size());
-    Numbering<glm::vec3> numbering(positions.size());
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-        first[i] = numbering.find(positions[i], static_cast<std::uint32_t>(i),
-                                  [&](std::uint32_t n) { return positions[n]; });
-    }
-    return first;
+    return firstEqualOf(positions);
 }
 
 Scene makeScene(PolygonSoup soup, const std::filesystem::path& file,
@@ -216,6 +240,7 @@ Scene makeScene(PolygonSoup soup, const std::filesystem::path& file,
     soup.corners = {};
     forgetIncompleteUvs(corners, file, warnings);
     forgetUselessNormals(corners, soup);
+    numberEqualValues(corners, soup);
 
     Mesh mesh;
     mesh.name = file.stem().string();

@@ -1,3 +1,4 @@
+#include "renderer/scene/describe_scene.h"
 #include "renderer/scene/load_scene.h"
 #include "subedit/errors.h"
 
@@ -110,6 +111,143 @@ INSTANTIATE_TEST_SUITE_P(
         std::string name = std::filesystem::path(instance.param.path).stem().string();
         return name;
     });
+
+class RealModelsTest : public testing::Test {
+protected:
+    void SetUp() override {
+        if (const auto folder = modelFolder()) {
+            mFolder = *folder;
+        } else {
+            GTEST_SKIP() << "CELADON_MODELS is not set";
+        }
+    }
+    [[nodiscard]] Scene load(const char* path) const { return loadScene(mFolder / path); }
+
+    std::filesystem::path mFolder;
+};
+
+TEST_F(RealModelsTest, DracoIsRefusedByName) {
+    for (const char* const path : {"gltf/Box_draco.glb", "gltf/CesiumMan_draco/CesiumMan.gltf"}) {
+        try {
+            (void)load(path);
+            ADD_FAILURE() << path << " was read";
+        } catch (const InputError& error) {
+            EXPECT_THAT(error.what(), testing::HasSubstr("requires KHR_draco_mesh_compression"));
+            EXPECT_THAT(error.what(), testing::HasSubstr("without Draco"));
+        }
+    }
+}
+
+/// Six times the volume that the triangles enclose, seen from the mesh's first vertex.
+double enclosedVolume(const Mesh& mesh) {
+    double volume = 0.0;
+    const glm::dvec3 origin(mesh.positions[0]);
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const glm::dvec3 a = glm::dvec3(mesh.positions[mesh.indices[i]]) - origin;
+        const glm::dvec3 b = glm::dvec3(mesh.positions[mesh.indices[i + 1]]) - origin;
+        const glm::dvec3 c = glm::dvec3(mesh.positions[mesh.indices[i + 2]]) - origin;
+        volume += glm::dot(a, glm::cross(b, c));
+    }
+    return volume;
+}
+
+/// The part of triangles whose corners' normals agree with their winding.
+double agreement(const Mesh& mesh) {
+    std::size_t agreeing = 0;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const glm::dvec3 a(mesh.positions[mesh.indices[i]]);
+        const glm::dvec3 b(mesh.positions[mesh.indices[i + 1]]);
+        const glm::dvec3 c(mesh.positions[mesh.indices[i + 2]]);
+        const glm::dvec3 face = glm::cross(b - a, c - a);
+        agreeing += glm::dot(face, glm::dvec3(mesh.normals[mesh.indices[i]])) > 0.0 &&
+                            glm::dot(face, glm::dvec3(mesh.normals[mesh.indices[i + 1]])) > 0.0 &&
+                            glm::dot(face, glm::dvec3(mesh.normals[mesh.indices[i + 2]])) > 0.0
+                        ? 1
+                        : 0;
+    }
+    return static_cast<double>(agreeing) / static_cast<double>(mesh.triangleCount());
+}
+
+TEST_F(RealModelsTest, MirroredSolidsStillFaceOutwards) {
+    // Six spheres, some under one mirror, some under two.
+    std::size_t spheres = 0;
+    for (const Mesh& mesh : load("gltf/NegativeScaleTest.glb").meshes) {
+        EXPECT_GT(agreement(mesh), 0.99) << mesh.name;
+        if (mesh.name == "Icosphere") {
+            ++spheres;
+            EXPECT_GT(enclosedVolume(mesh), 0.0);
+        }
+    }
+    EXPECT_EQ(spheres, 6u);
+}
+
+TEST_F(RealModelsTest, ClosedScansFaceOutwards) {
+    for (const char* const path :
+         {"mesh/bunny_watertight_60k.obj", "mesh/armadillo_86k.obj", "mesh/spot_uv.obj"}) {
+        const Scene scene = load(path);
+        EXPECT_GT(enclosedVolume(scene.meshes[0]), 0.0) << path;
+        EXPECT_GT(agreement(scene.meshes[0]), 0.97) << path;
+    }
+}
+
+TEST_F(RealModelsTest, SparseAccessorReplacesItsThreeVertices) {
+    // The file says so: vertices 8, 10 and 12 go to (1,2,0), (3,3,0), (5,4,0).
+    const Scene scene = load("gltf/SimpleSparseAccessor/SimpleSparseAccessor.gltf");
+    for (const glm::vec3 wanted : {glm::vec3(1, 2, 0), glm::vec3(3, 3, 0), glm::vec3(5, 4, 0)}) {
+        EXPECT_THAT(scene.meshes[0].positions, testing::Contains(wanted));
+    }
+}
+
+TEST_F(RealModelsTest, SkinsStandAsTheFileSays) {
+    // CesiumMan is 1.5 m tall, z up in the file, turned upright by its root node.
+    const Scene man = load("gltf/CesiumMan.glb");
+    glm::vec3 low(1e9f);
+    glm::vec3 high(-1e9f);
+    for (const glm::vec3& p : man.meshes[0].positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    EXPECT_NEAR(high.y - low.y, 1.5f, 0.1f);
+    EXPECT_NEAR(low.y, 0.0f, 0.05f);
+    EXPECT_GT(agreement(man.meshes[0]), 0.97);
+    EXPECT_EQ(man.images.size(), 1u);
+}
+
+TEST_F(RealModelsTest, CamerasAreBoth) {
+    const Scene scene = load("gltf/Cameras_embedded.gltf");
+    ASSERT_EQ(scene.cameras.size(), 2u);
+    EXPECT_NEAR(scene.cameras[0].fovYDegrees, 0.7 * 180.0 / 3.14159265, 1e-4);
+    EXPECT_EQ(scene.cameras[1].orthographicHeight, 2.0);
+    EXPECT_EQ(scene.cameras[0].eye, glm::dvec3(0.5, 0.5, 3.0));
+}
+
+TEST_F(RealModelsTest, LampsShine) {
+    const Scene scene = load("gltf/LightsPunctualLamp/LightsPunctualLamp.gltf");
+    EXPECT_EQ(scene.lights.size(), 5u);
+    EXPECT_GT(scene.images.size(), 3u);
+}
+
+TEST_F(RealModelsTest, TextureTransformPutsTheArrowWhereItsMarkerIs) {
+    // The arrow of the picture lies on its diagonal. At the place of the green marker, the
+    // transform must give a point of that diagonal; at that of the red one it does not.
+    const Scene scene = load("gltf/TextureTransformTest/TextureTransformTest.gltf");
+    const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                    [](const SurfaceMaterial& m) { return m.name == "Rotation"; });
+    ASSERT_NE(found, scene.materials.end());
+    const auto diagonal = [&](double x, double y) { // of the marker's node, in the quad
+        const glm::vec3 uv = found->baseColorTexture.transform * glm::vec3(0.5 + x, 0.5 - y, 1.0);
+        return std::abs(uv.x - uv.y);
+    };
+    EXPECT_LT(diagonal(-0.07904822439840126, -0.5162674857624154), 0.01f);
+    EXPECT_GT(diagonal(0.5162674857624154, 0.07904822439840126), 0.3f);
+}
+
+TEST_F(RealModelsTest, DescriptionsHaveTheNumbers) {
+    const std::vector<std::string> lines = describeScene(load("gltf/Cameras_embedded.gltf"));
+    EXPECT_THAT(lines, testing::Contains("triangles: 2"));
+    EXPECT_THAT(lines, testing::Contains("millimeters per unit: 1000"));
+    EXPECT_THAT(lines, testing::Contains(testing::HasSubstr("camera 1: orthographic")));
+}
 
 } // namespace
 
