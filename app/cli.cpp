@@ -77,10 +77,12 @@ std::string helpText(const CLI::App& app) {
 /// What CLI11 could not take apart, in our words where they are clearer.
 UsageError misunderstood(const CLI::ParseError& error, const CLI::App& app) {
     const std::string text = error.what();
-    const std::string option = text.substr(0, text.find(':'));
-    if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && option.starts_with('-')) {
-        const bool isMissing = text.find("missing") != std::string::npos;
-        return {option, isMissing ? "its value is missing" : "takes no value", helpRemedy(app)};
+    const bool isMismatch = dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr;
+    if (isMismatch && text.find("missing") != std::string::npos) {
+        return {text.substr(0, text.find(':')), "its value is missing", helpRemedy(app)};
+    }
+    if (isMismatch && text.find("flag override") != std::string::npos) {
+        return {"--" + text.substr(0, text.find(' ')), "takes no value", helpRemedy(app)};
     }
     return {"command line", text, helpRemedy(app)};
 }
