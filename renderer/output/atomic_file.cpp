@@ -22,7 +22,7 @@ constexpr mode_t kDefaultMode = 0666; // less the user's umask
 constexpr int kNameAttempts = 100;    // leftovers of a killed process with the same id
 
 std::string quote(const fs::path& path) {
-    return "'" + path.string() + "'";
+    return fmt::format("'{}'", path.string());
 }
 
 fs::path folderOf(const fs::path& file) {

@@ -47,7 +47,7 @@ constexpr std::uint64_t kMaxValuesPerByte = 8192;
 constexpr std::uint64_t kAlwaysAllowedValues = std::uint64_t{1} << 22;
 
 std::string quote(const fs::path& path) {
-    return "'" + path.string() + "'";
+    return fmt::format("'{}'", path.string());
 }
 
 std::string lowerExtension(const fs::path& file) {
