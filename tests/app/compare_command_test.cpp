@@ -75,6 +75,8 @@ TEST_F(CompareCommand, MeasuresStoredValuesOfPng) {
     const Json json = Json::parse(result.out);
     EXPECT_NEAR(json.at("rmse").get<double>(), 0.2, 1e-5);
     EXPECT_EQ(json.at("values"), "display");
+    EXPECT_EQ(runInProcess({"compare", file("a.png"), file("b.png"), "--metric", "all"}).exitCode,
+              0);
 }
 
 TEST_F(CompareCommand, PrintsOnlyTheMetricsAskedFor) {
