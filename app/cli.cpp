@@ -71,6 +71,24 @@ std::string helpRemedy(const CLI::App& app) {
     return fmt::format("see 'celadon {}--help'", isCommand ? app.get_name() + " " : "");
 }
 
+/// CLI11 leaves two blank lines between groups.
+std::string helpText(const CLI::App& app) {
+    return CLI::detail::find_and_replace(app.help(), "\n\n\n", "\n\n");
+}
+
+/// What CLI11 could not take apart, in our words where they are clearer.
+UsageError misunderstood(const CLI::ParseError& error, const CLI::App& app) {
+    const std::string text = error.what();
+    const bool isMismatch = dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr;
+    if (isMismatch && text.find("missing") != std::string::npos) {
+        return {text.substr(0, text.find(':')), "its value is missing", helpRemedy(app)};
+    }
+    if (isMismatch && text.find("flag override") != std::string::npos) {
+        return {"--" + text.substr(0, text.find(' ')), "takes no value", helpRemedy(app)};
+    }
+    return {"command line", text, helpRemedy(app)};
+}
+
 /// The first word that nothing took, if any, becomes an error that names it.
 void refuseLeftOver(const CLI::App& app, const std::vector<std::string>& commandNames) {
     const std::vector<std::string> rest = app.remaining();
@@ -98,7 +116,7 @@ int runCommandLine(int argc, const char* const* argv) {
     CLI::App root(kDescription, "celadon");
     root.set_help_flag("-h,--help", "Shows this help");
     root.set_version_flag("--version", "celadon " CELADON_VERSION, "Shows the version");
-    root.footer("'celadon COMMAND --help' lists the options of a command.");
+    root.get_formatter()->label("SUBCOMMAND", "COMMAND");
     root.allow_extras();
     bool verbose = false;
 
@@ -107,45 +125,42 @@ int runCommandLine(int argc, const char* const* argv) {
     std::vector<std::string> commandNames;
     for (const Command& command : commands) {
         commandNames.push_back(command.options->get_name());
-        command.options->allow_extras();
+        command.options->group("Commands")->allow_extras();
         command.options->set_help_flag("-h,--help", "Shows this help")->group("General");
         addFlag(*command.options, "--verbose", "General",
                 "Tells on stderr what is being done and chosen", verbose);
     }
 
+    root.footer("'celadon COMMAND --help' lists the options of a command.");
     root.allow_extras(false); // these two refuse unknown words themselves
     addProfileCommand(root);
     addMaterialCommand(root);
     root.allow_extras();
-
-    const CLI::App* current = &root;
     try {
         root.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
-        std::fputs(root.help().c_str(), stdout);
+        std::fputs(helpText(root).c_str(), stdout);
         return 0;
     } catch (const CLI::CallForVersion& version) {
         std::puts(version.what());
         return 0;
     } catch (const CLI::ParseError& error) {
         const std::vector<CLI::App*> parsed = root.get_subcommands();
-        throw UsageError("command line", error.what(),
-                         helpRemedy(parsed.empty() ? root : *parsed.front()));
+        throw misunderstood(error, parsed.empty() ? root : *parsed.front());
     }
 
     const auto chosen = std::find_if(commands.begin(), commands.end(), [](const Command& command) {
         return command.options->parsed();
     });
     if (chosen != commands.end()) {
-        current = chosen->options;
+        refuseLeftOver(*chosen->options, commandNames);
     }
     if (root.got_subcommand("profile") || root.got_subcommand("material")) {
         return 0; // done while parsing
     }
-    refuseLeftOver(*current, commandNames);
     refuseLeftOver(root, commandNames);
     if (chosen == commands.end()) {
-        std::fputs(root.help().c_str(), stderr);
+        std::fputs(helpText(root).c_str(), stderr);
         throw UsageError("command line", "no command is given",
                          fmt::format("choose {}", fmt::join(commandNames, ", ")));
     }

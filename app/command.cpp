@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,27 @@ std::string spokenName(const std::string& names) {
     const std::size_t longName = names.find("--");
     return longName == std::string::npos ? names
                                          : names.substr(longName, names.find(',', longName));
+}
+
+/// Help is set in lines that fit beside the option names on a terminal of 100 columns; CLI11
+/// indents what follows a line break. Line breaks in the text stay.
+std::string wrap(const std::string& help) {
+    constexpr std::size_t kColumns = 68;
+    std::string result;
+    std::size_t lineLength = 0;
+    for (std::size_t begin = 0; begin < help.size();) {
+        const std::size_t end = std::min(help.find_first_of(" \n", begin), help.size());
+        const std::size_t length = end - begin;
+        if (lineLength > 0) {
+            const bool fits = help[begin - 1] == ' ' && lineLength + 1 + length <= kColumns;
+            result += fits ? ' ' : '\n';
+            lineLength = fits ? lineLength + 1 : 0;
+        }
+        result.append(help, begin, length);
+        lineLength += length;
+        begin = end + 1;
+    }
+    return result;
 }
 
 CLI::Option* decorate(CLI::Option* option, const OptionText& text) {
@@ -29,7 +51,7 @@ CLI::Option* addOption(CLI::App& app, const std::string& names, const OptionText
         [name, take = std::move(take)](const std::string& value) {
             take({name, value});
         },
-        text.help);
+        wrap(text.help));
     return decorate(option, text)->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
 }
 
@@ -43,19 +65,23 @@ CLI::Option* addRepeatable(CLI::App& app, const std::string& names, const Option
                 take({name, value});
             }
         },
-        text.help);
+        wrap(text.help));
     // One value an occurrence: what follows belongs to something else.
     return decorate(option, text)->allow_extra_args(false);
 }
 
-CLI::Option* addFlag(CLI::App& app, const std::string& names, const std::string& group,
-                     const std::string& help, bool& flag) {
-    return app.add_flag(names, flag, help)->group(group);
+CLI::Option* addFlag(CLI::App& app, const std::string& name, const std::string& group,
+                     const std::string& help, bool& flag, bool value) {
+    return app
+        .add_flag_callback(
+            name, [&flag, value] { flag = value; }, wrap(help))
+        ->disable_flag_override()
+        ->group(group);
 }
 
 CLI::Option* addPositional(CLI::App& app, const std::string& name, const std::string& help,
                            std::string& text) {
-    return app.add_option(name, text, help)->option_text(" ");
+    return app.add_option(name, text, wrap(help))->option_text(" ");
 }
 
 } // namespace celadon::app

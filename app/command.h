@@ -34,9 +34,9 @@ CLI::Option* addOption(CLI::App& app, const std::string& names, const OptionText
 CLI::Option* addRepeatable(CLI::App& app, const std::string& names, const OptionText& text,
                            std::function<void(const Argument&)> take);
 
-/// A word on its own.
-CLI::Option* addFlag(CLI::App& app, const std::string& names, const std::string& group,
-                     const std::string& help, bool& flag);
+/// A word on its own, which sets `flag` to `value`.
+CLI::Option* addFlag(CLI::App& app, const std::string& name, const std::string& group,
+                     const std::string& help, bool& flag, bool value = true);
 
 /// A positional; whether it is needed is for the command to say.
 CLI::Option* addPositional(CLI::App& app, const std::string& name, const std::string& help,

@@ -31,6 +31,7 @@ struct Limit {
 struct CompareOptions {
     std::string a, b;
     std::vector<Metric> metrics; ///< empty: the usual ones
+    bool all = false;            ///< every metric that the pictures allow, besides `metrics`
     std::vector<Limit> limits;
     std::optional<std::filesystem::path> heatMap;
     std::optional<std::filesystem::path> output;
@@ -44,7 +45,7 @@ void takeMetrics(CompareOptions& options, const Argument& argument) {
         const std::size_t end = std::min(argument.text.find(',', begin), argument.text.size());
         const std::string word = argument.text.substr(begin, end - begin);
         if (word == "all") {
-            options.metrics.assign(allMetrics().begin(), allMetrics().end());
+            options.all = true;
         } else {
             options.metrics.push_back(parseMetric(word));
         }
@@ -69,11 +70,14 @@ struct Result {
 };
 
 std::vector<Result> computeResults(Comparison& comparison, const CompareOptions& options) {
-    std::vector<Metric> wanted = options.metrics;
-    if (wanted.empty()) {
+    std::vector<Metric> wanted;
+    if (options.all) {
+        wanted.assign(allMetrics().begin(), allMetrics().end());
+    } else if (options.metrics.empty()) {
         wanted = usualMetrics();
-        std::erase_if(wanted, [&](Metric metric) { return !comparison.has(metric); });
     }
+    std::erase_if(wanted, [&](Metric metric) { return !comparison.has(metric); });
+    wanted.insert(wanted.end(), options.metrics.begin(), options.metrics.end());
     for (const Limit& limit : options.limits) {
         wanted.push_back(limit.metric);
     }

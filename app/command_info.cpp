@@ -4,6 +4,7 @@
 #include "subedit/errors.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <memory>
 
@@ -22,8 +23,8 @@ void checkInfoOptions(const InfoOptions& options) {
             throw UsageError("--write-atlas", "needs a model");
         }
         if (options.writeAtlas->extension() != ".obj") {
-            throw UsageError("'" + options.writeAtlas->string() + "'", "only OBJ files are written",
-                             "choose .obj");
+            throw UsageError(fmt::format("'{}'", options.writeAtlas->string()),
+                             "only OBJ files are written", "choose .obj");
         }
         checkWritable(*options.writeAtlas);
     }

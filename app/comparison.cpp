@@ -47,7 +47,7 @@ std::string plain(std::string_view word) {
 }
 
 std::string quote(const fs::path& path) {
-    return "'" + path.string() + "'";
+    return fmt::format("'{}'", path.string());
 }
 
 void refuseNonFinite(const fs::path& file, const FloatImage& image) {

@@ -108,9 +108,7 @@ void addPicture(CLI::App& app, RenderOptions& o) {
                       o.background = glm::vec3(parseVector(a, {0.0, 1e6, false}));
                   }
               });
-    app.add_flag_callback(
-           "--no-specular", [&o] { o.specular = false; }, "No highlights")
-        ->group(group);
+    addFlag(app, "--no-specular", group, "No highlights", o.specular, false);
 }
 
 void addView(CLI::App& app, RenderOptions& o) {
@@ -128,24 +126,23 @@ void addView(CLI::App& app, RenderOptions& o) {
     addOption(app, "--fov",
               {group, "DEG", "Vertical field of view, degrees; default: the camera's, else 35"},
               takeNumber(o.fovYDegrees, {0.1, 170.0, false}));
-    CLI::Option* scale = addOption(
+    addOption(
         app, "--scale",
         {group, "MM", "Millimeters per model unit; default: glTF 1000, else as --diameter 100"},
         takeNumber(o.millimetersPerUnit, kPositive));
     addOption(app, "--diameter",
               {group, "MM", "Millimeters of the bounding sphere's diameter, instead of --scale"},
               takeNumber(o.diameterMm, kPositive));
-    static_cast<void>(scale);
 }
 
 void addLights(CLI::App& app, RenderOptions& o) {
     const char* group = "Light";
     addRepeatable(app, "--light",
                   {group, "LIGHT",
-                   "directional:DX,DY,DZ[:R,G,B] travels along D, W/m^2 on a plane that faces it; "
-                   "point:X,Y,Z[:R,G,B] W/sr, model units; "
-                   "spot:X,Y,Z:DX,DY,DZ:INNER,OUTER[:R,G,B] half angles in degrees, W/sr; "
-                   "repeatable; default: the model's lights, else one"},
+                   "directional:DX,DY,DZ[:R,G,B] travels along D, W/m^2 on a plane that faces it\n"
+                   "point:X,Y,Z[:R,G,B] W/sr, position in model units\n"
+                   "spot:X,Y,Z:DX,DY,DZ:INNER,OUTER[:R,G,B] W/sr, half angles in degrees\n"
+                   "Repeatable; default: the model's lights, else one"},
                   [&o](const Argument& a) { o.lights.push_back(parseText(a)); });
     addOption(app, "--environment",
               {group, "FILE", "Light from all around: a latitude-longitude .hdr or .exr"},
@@ -174,8 +171,8 @@ void addMotion(CLI::App& app, RenderOptions& o) {
               takeText(o.sequence));
     addRepeatable(app, "--deform",
                   {group, "DEFORM",
-                   "twist:AXIS:DEG, bend:AXIS:DEG, taper:AXIS:SCALE, "
-                   "wave:AXIS:AMPLITUDE_MM:WAVELENGTH_MM or inflate:MM; repeatable, in order"},
+                   "twist:AXIS:DEG, bend:AXIS:DEG, taper:AXIS:SCALE, inflate:MM or\n"
+                   "wave:AXIS:AMPLITUDE_MM:WAVELENGTH_MM; repeatable, in order"},
                   [&o](const Argument& a) { o.deformations.push_back(parseText(a)); });
 }
 
@@ -212,12 +209,9 @@ void addMethod(CLI::App& app, RenderOptions& o) {
               {group, "F",
                "Part of a profile's energy that a splat reaches to; default 0.99 (paper: 0.95)"},
               takeNumber(o.energy, {0.0, 1.0, true}));
-    app.add_flag_callback(
-           "--no-adaptive", [&o] { o.adaptive = false; }, "Every lit finest texel is a sample")
-        ->group(group);
-    app.add_flag_callback(
-           "--no-multires", [&o] { o.multiresolution = false; }, "Every splat at full resolution")
-        ->group(group);
+    addFlag(app, "--no-adaptive", group, "Every lit finest texel is a sample", o.adaptive, false);
+    addFlag(app, "--no-multires", group, "Every splat reaches to its end at full resolution",
+            o.multiresolution, false);
     addOption(app, "--exit-fresnel",
               {group, "exact|paper", "exact keeps the flux, paper is its eq. 7; default exact"},
               takeChoice(o.exitFresnel, kExitFresnels));

@@ -22,7 +22,7 @@ constexpr mode_t kDefaultMode = 0666; // less the user's umask
 constexpr int kNameAttempts = 100;    // leftovers of a killed process with the same id
 
 std::string quote(const fs::path& path) {
-    return "'" + path.string() + "'";
+    return fmt::format("'{}'", path.string());
 }
 
 fs::path folderOf(const fs::path& file) {
@@ -81,7 +81,7 @@ fs::path resolveTarget(const fs::path& target) {
     if (fs::exists(status) && !fs::is_regular_file(status)) {
         throw OutputError(quote(target), "is a device or a pipe, not a file", "name a file");
     }
-    if (fs::exists(status) && ::access(resolved.c_str(), W_OK) != 0) {
+    if (fs::exists(status) && ::faccessat(AT_FDCWD, resolved.c_str(), W_OK, AT_EACCESS) != 0) {
         throw OutputError(quote(target), "the file is write-protected",
                           "change its permissions or choose another name");
     }

@@ -93,9 +93,9 @@ Plane filterBySensitivity(const Plane& plane, const Sensitivity& sensitivity, do
         if (share[i] == 0.0) {
             continue;
         }
-        const std::vector<float> kernel = gaussianKernel(sigma[i], radius);
+        const std::vector<double> kernel = gaussianKernel(sigma[i], radius);
         const Plane filtered = filterSeparable(plane, kernel, kernel);
-        const auto weight = static_cast<float>(share[i] / total);
+        const double weight = share[i] / total;
         for (std::size_t p = 0; p < result.values.size(); ++p) {
             result.values[p] += weight * filtered.values[p];
         }
@@ -118,7 +118,7 @@ Opponents toOpponents(const FloatImage& image) {
         }
         const Color opponent = rgbToYcxcz(color);
         for (std::size_t c = 0; c < 3; ++c) {
-            result.planes[c].values[i] = static_cast<float>(opponent[static_cast<int>(c)]);
+            result.planes[c].values[i] = opponent[static_cast<int>(c)];
         }
     }
     return result;
@@ -158,16 +158,15 @@ double colorDifference(Color a, Color b) {
 // --- Feature pipeline ---------------------------------------------------------------------------
 
 /// Derivative kernels scaled so that positive weights sum to 1 and negative ones to -1.
-std::vector<float> balanced(const std::vector<double>& weights, double perpendicularSum) {
+std::vector<double> balanced(const std::vector<double>& weights, double perpendicularSum) {
     double positive = 0.0;
     double negative = 0.0;
     for (const double w : weights) {
         (w > 0.0 ? positive : negative) += std::abs(w) * perpendicularSum;
     }
-    std::vector<float> result;
+    std::vector<double> result;
     for (const double w : weights) {
-        result.push_back(
-            static_cast<float>(w * perpendicularSum / (w > 0.0 ? positive : negative)));
+        result.push_back(w * perpendicularSum / (w > 0.0 ? positive : negative));
     }
     return result;
 }
@@ -193,8 +192,8 @@ Features detectFeatures(const Plane& opponentY, double ppd) {
     const int radius = static_cast<int>(std::ceil(3.0 * sigma));
 
     Plane luminance = opponentY;
-    for (float& value : luminance.values) {
-        value = (value + 16.0f) / 116.0f;
+    for (double& value : luminance.values) {
+        value = (value + 16.0) / 116.0;
     }
     std::vector<double> first;
     std::vector<double> second;
@@ -205,9 +204,9 @@ Features detectFeatures(const Plane& opponentY, double ppd) {
         first.push_back(-x * g);
         second.push_back((x * x / (sigma * sigma) - 1.0) * g);
     }
-    const std::vector<float> smooth = gaussianKernel(sigma, radius);
-    const std::vector<float> edge = balanced(first, gaussianSum);
-    const std::vector<float> point = balanced(second, gaussianSum);
+    const std::vector<double> smooth = gaussianKernel(sigma, radius);
+    const std::vector<double> edge = balanced(first, gaussianSum);
+    const std::vector<double> point = balanced(second, gaussianSum);
     return {magnitude(filterSeparable(luminance, edge, smooth),
                       filterSeparable(luminance, smooth, edge)),
             magnitude(filterSeparable(luminance, point, smooth),

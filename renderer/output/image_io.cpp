@@ -13,9 +13,14 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
+#include <fcntl.h>
+#include <limits>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <system_error>
+#include <unistd.h>
 
 namespace celadon {
 namespace fs = std::filesystem;
@@ -42,7 +47,7 @@ constexpr std::uint64_t kMaxValuesPerByte = 8192;
 constexpr std::uint64_t kAlwaysAllowedValues = std::uint64_t{1} << 22;
 
 std::string quote(const fs::path& path) {
-    return "'" + path.string() + "'";
+    return fmt::format("'{}'", path.string());
 }
 
 std::string lowerExtension(const fs::path& file) {
@@ -84,22 +89,36 @@ void addAttributes(OIIO::ImageSpec& spec, const ImageAttributes& attributes) {
     }
 }
 
-/// Encodes in memory, so that a file is written by us alone, with its errors told apart.
+/// With the library's reasons in our words.
 template<typename T>
-void encodeAndWrite(const fs::path& file, ImageFormat format, OIIO::ImageSpec& spec,
+void encode(const fs::path& file, OIIO::ImageOutput& writer, const std::string& name,
+            const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const std::vector<T>& values) {
+    if (!writer.open(name, spec) || !writer.write_image(type, values.data()) || !writer.close()) {
+        throw OutputError(quote(file),
+                          fmt::format("encoding failed ({})", oneLine(writer.geterror())));
+    }
+}
+
+template<typename T>
+void encodeAndWrite(const fs::path& file, ImageFormat format, const OIIO::ImageSpec& spec,
                     OIIO::TypeDesc type, const std::vector<T>& values) {
-    std::vector<unsigned char> bytes;
-    OIIO::Filesystem::IOVecOutput sink(bytes);
-    const auto writer = OIIO::ImageOutput::create(pluginName(format), &sink);
+    const auto writer = OIIO::ImageOutput::create(pluginName(format));
     if (!writer) {
         throw OutputError(quote(file), fmt::format("OpenImageIO cannot write {} ({})",
                                                    pluginName(format), oneLine(OIIO::geterror())));
     }
-    if (!writer->open(file.filename().string(), spec) ||
-        !writer->write_image(type, values.data()) || !writer->close()) {
-        throw OutputError(quote(file),
-                          fmt::format("encoding failed ({})", oneLine(writer->geterror())));
+    if (format == ImageFormat::Tiff) {
+        // libtiff reads back what it wrote, which a sink in memory does not offer.
+        AtomicFile target(file);
+        encode(file, *writer, target.temporaryPath().string(), spec, type, values);
+        target.commit();
+        return;
     }
+    // In memory, so that the file is written by us alone, with its errors told apart.
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput sink(bytes);
+    writer->set_ioproxy(&sink);
+    encode(file, *writer, file.filename().string(), spec, type, values);
     writeFileAtomically(file, std::as_bytes(std::span(bytes)));
 }
 
@@ -134,6 +153,35 @@ void checkDisplaySettings(const fs::path& file, ImageFormat format, const FloatI
                                                   settings.bits, pluginName(format)));
     }
 }
+
+/// libpng prints its errors besides returning them; the exception that follows says the same in
+/// one line. Affects the whole process, so it stays around calls to the library only.
+class SilentStderr {
+public:
+    SilentStderr() {
+        std::fflush(stderr);
+        mSaved = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+        const int sink = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
+        if (mSaved >= 0 && sink >= 0) {
+            ::dup2(sink, STDERR_FILENO);
+        }
+        if (sink >= 0) {
+            ::close(sink);
+        }
+    }
+    ~SilentStderr() {
+        if (mSaved >= 0) {
+            std::fflush(stderr);
+            ::dup2(mSaved, STDERR_FILENO);
+            ::close(mSaved);
+        }
+    }
+    SilentStderr(const SilentStderr&) = delete;
+    SilentStderr& operator=(const SilentStderr&) = delete;
+
+private:
+    int mSaved = -1;
+};
 
 void checkReadable(const fs::path& file) {
     std::error_code error;
@@ -198,6 +246,28 @@ std::vector<int> channelOrder(const OIIO::ImageSpec& spec) {
         }
     }
     return order;
+}
+
+/// The data window's values as they are stored. @param spec receives the header
+std::vector<float> readPixels(const fs::path& file, OIIO::ImageSpec& spec) {
+    const SilentStderr silence;
+    OIIO::ImageSpec hints;
+    hints.attribute("oiio:UnassociatedAlpha", 1);
+    const auto reader = OIIO::ImageInput::open(file.string(), &hints);
+    if (!reader) {
+        throw InputError(quote(file),
+                         fmt::format("is no readable picture ({})", oneLine(OIIO::geterror())));
+    }
+    spec = reader->spec();
+    checkHeader(file, spec);
+    const auto channels = static_cast<std::size_t>(spec.nchannels);
+    std::vector<float> data(valueCount(spec.width, spec.height, channels));
+    if (!reader->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, data.data())) {
+        throw InputError(quote(file),
+                         fmt::format("its pixels cannot be read ({})", oneLine(reader->geterror())),
+                         "the file is damaged");
+    }
+    return data;
 }
 
 /// sRGB-encoded straight color, as integer files have it, to linear and premultiplied.
@@ -287,23 +357,9 @@ void writeDisplayImage(const fs::path& file, const FloatImage& image,
 
 ReadImage readImage(const fs::path& file) {
     checkReadable(file);
-    OIIO::ImageSpec hints;
-    hints.attribute("oiio:UnassociatedAlpha", 1);
-    const auto reader = OIIO::ImageInput::open(file.string(), &hints);
-    if (!reader) {
-        throw InputError(quote(file),
-                         fmt::format("is no readable picture ({})", oneLine(OIIO::geterror())));
-    }
-    const OIIO::ImageSpec spec = reader->spec();
-    checkHeader(file, spec);
-
+    OIIO::ImageSpec spec;
+    const std::vector<float> data = readPixels(file, spec);
     const auto channels = static_cast<std::size_t>(spec.nchannels);
-    std::vector<float> data(valueCount(spec.width, spec.height, channels));
-    if (!reader->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, data.data())) {
-        throw InputError(quote(file),
-                         fmt::format("its pixels cannot be read ({})", oneLine(reader->geterror())),
-                         "the file is damaged");
-    }
 
     const std::vector<int> order = channelOrder(spec);
     ReadImage result;

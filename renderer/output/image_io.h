@@ -24,7 +24,7 @@ using ImageAttributes = std::vector<std::pair<std::string, std::string>>;
 
 struct ExrSettings {
     bool halfColor = false; ///< R, G, B and A as 16-bit halves; other channels are always floats
-    ImageAttributes attributes;
+    ImageAttributes attributes{};
 };
 
 /// One zip-compressed part, channels under their own names. Values are stored as they are,
@@ -36,7 +36,7 @@ void writeExr(const std::filesystem::path& file, const FloatImage& image,
 struct DisplayFileSettings {
     int bits = 8;         ///< 8, or 16 for PNG and TIFF
     int jpegQuality = 95; ///< 1..100
-    ImageAttributes attributes;
+    ImageAttributes attributes{};
 };
 
 /// PNG, JPEG or TIFF by the extension.

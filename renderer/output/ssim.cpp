@@ -15,8 +15,9 @@ constexpr double kC2 = 0.03 * 0.03;
 Plane product(const FloatImage& a, int channelA, const FloatImage& b, int channelB) {
     Plane plane(a.width, a.height);
     for (std::size_t i = 0; i < plane.values.size(); ++i) {
-        plane.values[i] = a.pixels[i * a.channelCount() + static_cast<std::size_t>(channelA)] *
-                          b.pixels[i * b.channelCount() + static_cast<std::size_t>(channelB)];
+        const double valueA = a.pixels[i * a.channelCount() + static_cast<std::size_t>(channelA)];
+        const double valueB = b.pixels[i * b.channelCount() + static_cast<std::size_t>(channelB)];
+        plane.values[i] = valueA * valueB;
     }
     return plane;
 }
@@ -34,7 +35,7 @@ Plane channelPlane(const FloatImage& image, int channel) {
 
 double structuralSimilarity(const FloatImage& a, const FloatImage& b) {
     CELADON_ASSERT(a.width == b.width && a.height == b.height && a.channels == b.channels);
-    const std::vector<float> window = gaussianKernel(kSigma, kRadius);
+    const std::vector<double> window = gaussianKernel(kSigma, kRadius);
     const auto mean = [&](const Plane& plane) { return filterSeparable(plane, window, window); };
     const bool hasInside = a.width > 2 * kRadius && a.height > 2 * kRadius;
     const int border = hasInside ? kRadius : 0;

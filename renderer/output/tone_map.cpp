@@ -2,6 +2,7 @@
 
 #include "subedit/errors.h"
 
+#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
@@ -69,8 +70,7 @@ ToneMap parseToneMap(std::string_view word) {
             return toneMap;
         }
     }
-    throw UsageError("'" + std::string(word) + "'", "is no tone map",
-                     "choose neutral, aces or none");
+    throw UsageError(fmt::format("'{}'", word), "is no tone map", "choose neutral, aces or none");
 }
 
 const char* toneMapName(ToneMap toneMap) {
