@@ -20,6 +20,7 @@ struct Builtin {
 
 /// The default sculpture first.
 constexpr std::array kBuiltins{
+    Builtin{"vase", makeVase},
     Builtin{"sphere", makeSphere},
     Builtin{"slab", makeSlab},
 };

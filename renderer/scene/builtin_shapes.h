@@ -11,4 +11,7 @@ namespace celadon {
 /// 100 x 20 x 100 mm; the six faces side by side in the texture at one scale.
 [[nodiscard]] Scene makeSlab();
 
+/// A jar with an openwork belly, carved petals and a thin lip, 104 mm high.
+[[nodiscard]] Scene makeVase();
+
 } // namespace celadon
