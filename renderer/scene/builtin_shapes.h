@@ -14,4 +14,7 @@ namespace celadon {
 /// A jar with an openwork belly, carved petals and a thin lip, 104 mm high.
 [[nodiscard]] Scene makeVase();
 
+/// A spiral shell with thin blades and a hollow mouth, 100 mm high.
+[[nodiscard]] Scene makeShell();
+
 } // namespace celadon
