@@ -24,7 +24,7 @@ namespace {
 constexpr double kExpansion = 1.55;   ///< scale of a turn over that of the turn before
 constexpr double kCoilRadius = 0.56;  ///< from the axis to the middle of the tube
 constexpr double kCoilHeight = 2.0;   ///< from the apex down to the middle of the tube
-constexpr double kTubeRadius = 0.325; ///< turns stay 0.02 apart, blades included
+constexpr double kTubeRadius = 0.325; ///< turns stay 0.01 apart, blades included
 constexpr double kBladeHeight = 0.31; ///< of the tube's radius
 constexpr int kBlades = 14;           ///< a turn
 constexpr int kTurns = 6;
@@ -33,12 +33,12 @@ constexpr double kHollowTurns = 1.3; ///< how far the cavity reaches behind the 
 constexpr double kWall = 0.10;       ///< of the tube's radius, at the mouth
 constexpr double kHeightMm = 100.0;
 
-const double kTurn = glm::two_pi<double>();
+constexpr double kTurn = glm::two_pi<double>();
 const double kGrowth = std::log(kExpansion) / kTurn;
 
 /// Theta is zero at the mouth and grows towards it: -kTurns turns at the apex.
-const double kApex = -kTurn * kTurns;
-const double kHollowFrom = -kTurn * kHollowTurns;
+constexpr double kApex = -kTurn * kTurns;
+constexpr double kHollowFrom = -kTurn * kHollowTurns;
 
 /// The mouth opens towards a viewer 30 degrees to the right of +z, as the default view has it.
 constexpr double kMouthAzimuth = -glm::pi<double>() / 6.0;
@@ -162,19 +162,25 @@ private:
         return stations;
     }
 
+    /// Stations that crowd towards the pole, where a tube closes like an ellipse.
+    static void roundTheEnd(std::vector<double>& stations) {
+        constexpr std::size_t kReplaced = 4;
+        constexpr int kInstead = 12;
+        const double from = stations[0];
+        const double to = stations[kReplaced];
+        std::vector<double> end;
+        for (int i = 0; i < kInstead; ++i) {
+            const double x = static_cast<double>(i) / kInstead;
+            end.push_back(from + (to - from) * x * x);
+        }
+        stations.erase(stations.begin(), stations.begin() + kReplaced);
+        stations.insert(stations.begin(), end.begin(), end.end());
+    }
+
     void addBandOf(bool inside, int around, int aroundBefore, std::vector<double> stations) {
         Band band{inside, around, aroundBefore, std::move(stations), {}, {}};
-        if (aroundBefore == 0) { // where the tube closes, stations for a round end
-            const double from = band.stations[0];
-            const double to = band.stations[4];
-            std::vector<double> end;
-            constexpr int kEndStations = 12;
-            for (int i = 0; i < kEndStations; ++i) {
-                const double x = static_cast<double>(i) / kEndStations;
-                end.push_back(from + (to - from) * x * x);
-            }
-            band.stations.erase(band.stations.begin(), band.stations.begin() + 4);
-            band.stations.insert(band.stations.begin(), end.begin(), end.end());
+        if (aroundBefore == 0) {
+            roundTheEnd(band.stations);
         }
         // The chart's length is that of the surface's own way over the blades, on its outer side.
         double heightBefore = 0.0;

@@ -1,6 +1,6 @@
 // builtin:vase, after the openwork incense burners of Goryeo celadon: a jar whose belly is pierced
 // in the pattern of linked circles, with carved lotus petals below, lappets above, bosses where the
-// circles meet, and a thin flaring lip. Walls of 1.5 to 6 mm, 104 mm high.
+// circles meet, and a thin flaring lip. Walls of 1.5 to 6 mm, 102 mm high.
 //
 // The wall is one parametric patch: u around the axis, v along the outer profile from the foot to
 // the lip, w through the wall from outside (0) to inside (1). The openwork is made of diamonds that
@@ -469,17 +469,14 @@ private:
         const int step = kAround / columns;
         const auto point = [&](int column, int ring) {
             const double s = outer * ring / rings;
+            const int u = column * step;
             const double angle = glm::two_pi<double>() * column / columns;
             const glm::dvec2 direction(std::sin(angle),
                                        fromAbove ? std::cos(angle) : -std::cos(angle));
-            glm::dvec2 p = profile.at(s);
-            if (ring == 0) {
-                p = fromAbove ? innerProfile(mInnerFrom)
-                              : mOuter.at(0.0) + relief(0, 0.0) * outward(0.0);
-            }
-            glm::dvec3 position = ring == 0 && !fromAbove ? wall(column * step, 0.0, 0.0)
-                                  : ring == 0             ? wall(column * step, mInnerFrom, 1.0)
-                                                          : turned(p, column * step);
+            // The outermost ring is the wall's own, to the bit.
+            const glm::dvec3 position = ring > 0    ? turned(profile.at(s), u)
+                                        : fromAbove ? wall(u, mInnerFrom, 1.0)
+                                                    : wall(u, 0.0, 0.0);
             return SurfacePoint{position, center + (outer - s) * direction};
         };
         mSurface.addGrid(columns, rings - 1, [&](int column, int ring) {
