@@ -20,6 +20,8 @@ struct Builtin {
 
 /// The default sculpture first.
 constexpr std::array kBuiltins{
+    Builtin{"vase", makeVase},
+    Builtin{"shell", makeShell},
     Builtin{"sphere", makeSphere},
     Builtin{"slab", makeSlab},
 };

@@ -11,4 +11,10 @@ namespace celadon {
 /// 100 x 20 x 100 mm; the six faces side by side in the texture at one scale.
 [[nodiscard]] Scene makeSlab();
 
+/// A jar with an openwork belly, carved petals and a thin lip, 102 mm high.
+[[nodiscard]] Scene makeVase();
+
+/// A spiral shell with thin blades and a hollow mouth, 100 mm high.
+[[nodiscard]] Scene makeShell();
+
 } // namespace celadon

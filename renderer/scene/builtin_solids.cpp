@@ -31,7 +31,8 @@ Scene makeSphere() {
     // A column of vertices more than of quads, for the seam; at the poles one vertex a triangle,
     // each with the u of its triangle's middle.
     const auto add = [&](double column, int row) {
-        const double phi = glm::two_pi<double>() * std::fmod(column, kColumns) / kColumns;
+        const double phi = glm::two_pi<double>() * std::fmod(column, kColumns) / kColumns +
+                           glm::pi<double>(); // the seam is behind, at -z
         const double theta = glm::pi<double>() * row / kRows;
         const double ring = row == 0 || row == kRows ? 0.0 : std::sin(theta);
         const glm::dvec3 normal(ring * std::sin(phi), row == kRows ? -1.0 : std::cos(theta),

@@ -139,9 +139,9 @@ double spotFactor(const Light& light, double cosAngle) {
 }
 
 Light defaultLight(const Camera& camera) {
-    // Where the light comes from, in the camera's frame (right, up, towards the viewer): 50 degrees
-    // up, a little behind the plane of the picture.
-    const glm::dvec3 source = glm::normalize(glm::dvec3(0.62, 0.68, -0.40));
+    // Where the light comes from, in the camera's frame (right, up, towards the viewer): 40 degrees
+    // up, and 97 degrees away from the viewer, so just behind the plane of the picture.
+    const glm::dvec3 source = glm::normalize(glm::dvec3(0.76, 0.63, -0.12));
     // White diffuse paper that faces it would leave with a radiance of 1.6 W/m^2/sr; what glows
     // through from behind then lies around 0.1 to 0.5, where the default exposure wants it.
     constexpr double kIrradiance = 5.0;
