@@ -1,28 +1,39 @@
-#include "app/command_material.h"
-#include "app/command_profile.h"
+#include "app/cli.h"
 #include "subedit/errors.h"
 
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <new>
+#include <string>
+
+namespace {
+
+/// One line on stderr, whatever the message holds.
+int fail(std::string message, celadon::ExitCode code) {
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    std::fprintf(stderr, "celadon: %s\n", message.c_str());
+    return static_cast<int>(code);
+}
+
+} // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Paint translucency, see the light", "celadon");
-    app.require_subcommand(1);
-    celadon::addProfileCommand(app);
-    celadon::addMaterialCommand(app);
+    using celadon::ExitCode;
     try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : static_cast<int>(celadon::ExitCode::Usage);
+        const int code = celadon::app::runCommandLine(argc, argv);
+        // Results that did not arrive (a full disk, a closed pipe) are not done.
+        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+            return fail("standard output: cannot be written", ExitCode::Failed);
+        }
+        return code;
     } catch (const celadon::Error& error) {
-        fmt::print(stderr, "celadon: {}\n", error.what());
-        return static_cast<int>(error.exitCode());
+        std::fflush(stdout);
+        return fail(error.what(), error.exitCode());
+    } catch (const std::bad_alloc&) {
+        return fail("memory: not enough for this; make the picture or the model smaller",
+                    ExitCode::Failed);
     } catch (const std::exception& error) {
-        fmt::print(stderr, "celadon: {}\n", error.what());
-        return static_cast<int>(celadon::ExitCode::Failed);
+        return fail(std::string("unexpected failure: ") + error.what(), ExitCode::Failed);
     }
-    return 0;
 }

@@ -1,0 +1,2 @@
+// Depth only: the shadow map of one light view.
+void main() {}
