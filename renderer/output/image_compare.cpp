@@ -23,7 +23,7 @@ double ratio(double a, double b, double both) {
     return a / b;
 }
 
-bool sameShape(const FloatImage& a, const FloatImage& b) {
+[[maybe_unused]] bool sameShape(const FloatImage& a, const FloatImage& b) {
     return a.width == b.width && a.height == b.height && a.channels == b.channels;
 }
 

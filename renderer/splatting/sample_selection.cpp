@@ -6,7 +6,8 @@
 namespace celadon {
 
 SampleSelection::SampleSelection(const gl::ShaderLibrary& shaders, const IrradianceBuffer& buffer)
-    : mNoAttributes("no attributes"),
+    : mNothing(gl::Framebuffer::withoutAttachments("nothing", glm::ivec2(1))),
+      mNoAttributes("no attributes"),
       mProgram("sample selection", shaders, {"sample_selection.vert", "sample_selection.geom"}) {
     for (int k = 0; k < buffer.levels(); ++k) {
         const glm::ivec2 size = buffer.positions().size2d(k);
@@ -32,8 +33,7 @@ SampleSelection::SampleSelection(const gl::ShaderLibrary& shaders, const Irradia
 
 void SampleSelection::select(const IrradianceBuffer& buffer) {
     const gl::DebugGroup group("sample selection");
-    gl::PassState state;
-    state.viewport = glm::ivec4(0, 0, 1, 1);
+    gl::PassState state = gl::PassState::covering(mNothing);
     state.rasterizerDiscard = true;
     state.apply();
     mProgram.use();

@@ -43,6 +43,7 @@ private:
         int nodes = 0;
     };
     std::vector<Level> mLevels;
+    gl::Framebuffer mNothing; ///< nothing is drawn, but something complete must be bound
     gl::VertexArray mNoAttributes;
     gl::Program mProgram;
 };
