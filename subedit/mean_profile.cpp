@@ -2,6 +2,7 @@
 
 #include "subedit/assert.h"
 #include "subedit/fast_exp.h"
+#include "subedit/multiversion.h"
 
 #include <tbb/parallel_for.h>
 
@@ -21,35 +22,71 @@ double linearEnergy(double p0, double p1, double start, double width) {
     return width * (start * 0.5 * (p0 + p1) + width * (p0 / 6.0 + p1 / 3.0));
 }
 
-/// Summed channels of one texel at the samples r_i = i / N in units of R_P. Within a segment the
-/// samples of ln P are equally spaced, so that P is multiplied by a constant from one to the next.
-void sampleTexel(const float* logProfile, int segments, float samplesPerSegment,
-                 SampleArray& samples) {
-    samples.fill(0.0f);
-    const float segmentsPerSample = 1.0f / samplesPerSegment;
-    int i = 0;
-    for (int k = 0; k < segments && i < kSamples; ++k, logProfile += 3) {
-        const int end = std::min(
-            kSamples, static_cast<int>(std::ceil(static_cast<float>(k + 1) * samplesPerSegment)));
-        if (i >= end) {
-            continue;
-        }
-        const float t = static_cast<float>(i) * segmentsPerSample - static_cast<float>(k);
-        std::array<float, 3> value;
-        std::array<float, 3> ratio;
-        for (std::size_t channel = 0; channel < 3; ++channel) {
-            const float slope = logProfile[3 + channel] - logProfile[channel];
-            value[channel] = fastExp(logProfile[channel] + slope * t);
-            ratio[channel] = fastExp(slope * segmentsPerSample);
-        }
-        for (; i < end; ++i) {
-            samples[static_cast<std::size_t>(i)] = value[0] + value[1] + value[2];
-            value[0] *= ratio[0];
-            value[1] *= ratio[1];
-            value[2] *= ratio[2];
-        }
+/// e^x of an array.
+CELADON_MULTIVERSION void exponentials(const float* __restrict x, int count,
+                                       float* __restrict out) {
+    for (int i = 0; i < count; ++i) {
+        out[i] = fastExp(x[i]);
     }
 }
+
+/// Samples the summed channels of texels at r_i = i / N in units of R_P. Within a segment the
+/// samples of ln P are equally spaced: P is multiplied by a constant from one to the next, and two
+/// exponentials per segment and channel are enough.
+class TexelSampler {
+public:
+    void sample(const float* logProfile, int segments, float samplesPerSegment,
+                SampleArray& samples) {
+        samples.fill(0.0f);
+        const int used = layOut(logProfile, segments, samplesPerSegment);
+        exponentials(mExponent.data(), used * 6, mExponential.data());
+        int i = 0;
+        for (int k = 0; k < used; ++k) {
+            const float* start = mExponential.data() + k * 6;
+            float p0 = start[0];
+            float p1 = start[1];
+            float p2 = start[2];
+            for (; i < mEnd[static_cast<std::size_t>(k)]; ++i) {
+                samples[static_cast<std::size_t>(i)] = p0 + p1 + p2;
+                p0 *= start[3];
+                p1 *= start[4];
+                p2 *= start[5];
+            }
+        }
+    }
+
+private:
+    /// ln P at the first sample of each segment and its change per sample, for the segments that
+    /// have samples at all. @return their number
+    int layOut(const float* logProfile, int segments, float samplesPerSegment) {
+        const float segmentsPerSample = 1.0f / samplesPerSegment;
+        int used = 0;
+        int i = 0;
+        for (int k = 0; k < segments && i < kSamples; ++k, logProfile += 3) {
+            const float border = static_cast<float>(k + 1) * samplesPerSegment;
+            const int end = border < static_cast<float>(kSamples)
+                                ? static_cast<int>(std::ceil(border))
+                                : kSamples;
+            if (i >= end) {
+                continue;
+            }
+            const float t = static_cast<float>(i) * segmentsPerSample - static_cast<float>(k);
+            float* exponent = mExponent.data() + used * 6;
+            for (int channel = 0; channel < 3; ++channel) {
+                const float slope = logProfile[3 + channel] - logProfile[channel];
+                exponent[channel] = logProfile[channel] + slope * t;
+                exponent[3 + channel] = slope * segmentsPerSample;
+            }
+            mEnd[static_cast<std::size_t>(used++)] = end;
+            i = end;
+        }
+        return used;
+    }
+
+    std::array<float, kMaxSegments * 6> mExponent;
+    std::array<float, kMaxSegments * 6> mExponential;
+    std::array<int, kMaxSegments> mEnd;
+};
 
 /// Energy of a texel's samples, to the accuracy that C needs (trapezoids of P r).
 float trapezoidEnergy(const SampleArray& samples) {
@@ -111,10 +148,11 @@ MeanProfile meanProfile(const MaterialMap& map, std::span<const float> effective
         SampleArray& sum = sums[block];
         sum.fill(0.0f);
         SampleArray samples;
+        TexelSampler sampler;
         for (std::size_t i = block * kBlock; i < std::min(texels, (block + 1) * kBlock); ++i) {
             const float samplesPerSegment = h / effectiveRadiusMm[i] * kMeanProfileIntervals;
-            sampleTexel(map.logProfile.data() + i * stride, map.segments, samplesPerSegment,
-                        samples);
+            sampler.sample(map.logProfile.data() + i * stride, map.segments, samplesPerSegment,
+                           samples);
             const float scale = 1.0f / std::max(trapezoidEnergy(samples), 1e-30f);
             for (std::size_t s = 0; s < kSamples; ++s) {
                 sum[s] += samples[s] * scale;

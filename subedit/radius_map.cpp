@@ -2,6 +2,7 @@
 
 #include "subedit/assert.h"
 #include "subedit/fast_exp.h"
+#include "subedit/multiversion.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -17,6 +18,39 @@ namespace {
 
 constexpr float kBlackAlbedo = 1e-6f; ///< as in effective_radius.cpp
 
+/// Moments M_0 and M_1 of log_linear.h for |z| < 0.3, to 1e-6.
+float momentSeries0(float z) {
+    return 1.0f + z * (1.0f / 2 + z * (1.0f / 6 + z * (1.0f / 24 + z / 120)));
+}
+
+float momentSeries1(float z) {
+    return 1.0f / 2 + z * (1.0f / 3 + z * (1.0f / 8 + z * (1.0f / 30 + z / 144)));
+}
+
+/// P at all knots, and energies of all segments in units of h^2 (log_linear.h with t = 1). Both
+/// branches of each moment are computed, so that the loops vectorize.
+/// @param count segments x 3
+/// @param index of the segment, for each of `count`
+CELADON_MULTIVERSION void computeEnergies(const float* __restrict logProfile, int count,
+                                          const float* __restrict index, float* __restrict value,
+                                          float* __restrict energy) {
+    for (int i = 0; i < count + 3; ++i) {
+        value[i] = fastExp(logProfile[i]);
+    }
+    for (int i = 0; i < count; ++i) {
+        const float z = logProfile[i + 3] - logProfile[i];
+        const float p0 = value[i];
+        const float p1 = value[i + 3];
+        const bool isSmall = std::abs(z) < 0.3f;
+        const float inverse = 1.0f / (isSmall ? 1.0f : z);
+        const float m0 = (p1 - p0) * inverse;
+        const float m1 = (p1 - m0) * inverse;
+        const float s0 = p0 * momentSeries0(z);
+        const float s1 = p0 * momentSeries1(z);
+        energy[i] = index[i] * (isSmall ? s0 : m0) + (isSmall ? s1 : m1);
+    }
+}
+
 /// Energies of one texel's segments in units of h^2: integral of P r dr = h^2 energy.
 class TexelEnergy {
 public:
@@ -28,24 +62,7 @@ public:
 
     void compute(const float* logProfile) {
         const int count = mSegments * 3;
-        for (int i = 0; i < count + 3; ++i) {
-            mValue[i] = fastExp(logProfile[i]);
-        }
-        // log_linear.h with t = 1, both branches computed so that the loop vectorizes.
-        for (int i = 0; i < count; ++i) {
-            const float z = logProfile[i + 3] - logProfile[i];
-            const float p0 = mValue[i];
-            const float p1 = mValue[i + 3];
-            const bool isSmall = std::abs(z) < 0.3f;
-            const float inverse = 1.0f / (isSmall ? 1.0f : z);
-            const float m0 = (p1 - p0) * inverse;
-            const float m1 = (p1 - m0) * inverse;
-            const float s0 =
-                p0 * (1.0f + z * (1.0f / 2 + z * (1.0f / 6 + z * (1.0f / 24 + z / 120))));
-            const float s1 =
-                p0 * (1.0f / 2 + z * (1.0f / 3 + z * (1.0f / 8 + z * (1.0f / 30 + z / 144))));
-            mEnergy[i] = mIndex[i] * (isSmall ? s0 : m0) + (isSmall ? s1 : m1);
-        }
+        computeEnergies(logProfile, count, mIndex.data(), mValue.data(), mEnergy.data());
         mTotal = {};
         for (int i = 0; i < count; i += 3) {
             mTotal[0] += mEnergy[i];
@@ -96,8 +113,8 @@ private:
             float m0 = 0.0f;
             float m1 = 0.0f;
             if (std::abs(z) < 0.3f) {
-                m0 = p0 * (1.0f + z * (1.0f / 2 + z * (1.0f / 6 + z * (1.0f / 24 + z / 120))));
-                m1 = p0 * (1.0f / 2 + z * (1.0f / 3 + z * (1.0f / 8 + z * (1.0f / 30 + z / 144))));
+                m0 = p0 * momentSeries0(z);
+                m1 = p0 * momentSeries1(z);
             } else {
                 m0 = (p - p0) / z;
                 m1 = (p - m0) / z;

@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 
 namespace celadon::subedit {
@@ -107,6 +108,11 @@ ChannelOrder channelOrder(const OIIO::ImageSpec& spec, int segments) {
     return order;
 }
 
+/// Finite (a comparison with NaN is false) and possible.
+bool isLogProfile(float value) {
+    return value >= -std::numeric_limits<float>::max() && value <= kMaxLogProfile;
+}
+
 /// Copies one row of pixels, and refuses what no profile may hold.
 class RowReader {
 public:
@@ -115,14 +121,14 @@ public:
 
     void read(const float* row, int y) {
         const std::size_t values = mOrder.profile.size();
-        for (int x = 0; x < mMap.width; ++x, row += mChannels) {
-            const std::size_t base = mMap.logProfile.size();
-            mMap.logProfile.resize(base + values);
-            float* out = mMap.logProfile.data() + base;
+        const std::size_t base = mMap.logProfile.size();
+        mMap.logProfile.resize(base + values * static_cast<std::size_t>(mMap.width));
+        float* out = mMap.logProfile.data() + base;
+        for (int x = 0; x < mMap.width; ++x, row += mChannels, out += values) {
             bool isGood = true;
             for (std::size_t i = 0; i < values; ++i) {
                 const float value = row[mOrder.profile[i]];
-                isGood &= std::abs(value) <= 1e30f && value <= kMaxLogProfile; // NaN fails
+                isGood &= isLogProfile(value);
                 out[i] = std::max(value, kLogProfileFloor);
             }
             if (!isGood) {
@@ -137,11 +143,11 @@ private:
     [[noreturn]] void refuseTexel(const float* row, int x, int y) const {
         for (std::size_t i = 0; i < mOrder.profile.size(); ++i) {
             const float value = row[mOrder.profile[i]];
-            if (!(std::abs(value) <= 1e30f && value <= kMaxLogProfile)) {
+            if (!isLogProfile(value)) {
                 refuse(mFile,
                        fmt::format("channel '{}'",
                                    channelOf(static_cast<int>(i / 3), static_cast<int>(i % 3))),
-                       std::isfinite(value) && value < 1e30f && value > -1e30f
+                       std::isfinite(value)
                            ? fmt::format("holds ln P = {} at texel ({}, {}): over {} is no profile",
                                          value, x, y, kMaxLogProfile)
                            : fmt::format("is not finite at texel ({}, {})", x, y));
@@ -247,6 +253,8 @@ OIIO::ImageSpec fileSpec(const MaterialMap& map, StoredPrecision precision) {
     spec.nchannels = static_cast<int>(spec.channelnames.size());
     spec.attribute("compression", "zip");
     spec.attribute("Software", "Celadon");
+    // The library would put the time of writing here; the same material is to be the same bytes.
+    spec.attribute("DateTime", "1970:01:01 00:00:00");
     spec.attribute("subedit:version", kFileVersion);
     spec.attribute("subedit:segments", map.segments);
     spec.attribute("subedit:maxRadius", map.maxRadiusMm);

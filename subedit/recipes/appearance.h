@@ -5,6 +5,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <string_view>
+
 /// What the procedural recipes share: one look per texel, and mixing of looks.
 namespace celadon::subedit {
 
@@ -17,17 +19,34 @@ struct Appearance {
 /// Albedo and roughness mix linearly, radii by their logarithm.
 [[nodiscard]] Appearance mix(const Appearance& a, const Appearance& b, float t);
 
-/// A square map of look(uv) at the texel centers.
+/// Mean in the same sense.
+class AppearanceMean {
+public:
+    void add(const Appearance& appearance);
+    [[nodiscard]] Appearance result() const;
+
+private:
+    Appearance mSum{glm::vec3(0.0f), glm::vec3(0.0f), 0.0f}; ///< of the logarithms of radii
+    float mCount = 0.0f;
+};
+
+/// A square map of look(uv), the mean over each texel's square (16 samples).
 template<typename Look>
 [[nodiscard]] AppearanceMap evaluate(std::string_view name, int size, float eta, const Look& look) {
+    constexpr int kSide = 4;
     AppearanceMap map;
     map.name = name;
     map.width = map.height = size;
     map.eta = eta;
     for (int y = 0; y < size; ++y) {
         for (int x = 0; x < size; ++x) {
-            const glm::vec2 uv = (glm::vec2(x, y) + 0.5f) / static_cast<float>(size);
-            const Appearance appearance = look(uv);
+            AppearanceMean mean;
+            for (int sample = 0; sample < kSide * kSide; ++sample) {
+                const glm::vec2 within =
+                    (glm::vec2(sample % kSide, sample / kSide) + 0.5f) / static_cast<float>(kSide);
+                mean.add(look((glm::vec2(x, y) + within) / static_cast<float>(size)));
+            }
+            const Appearance appearance = mean.result();
             map.albedo.push_back(appearance.albedo);
             map.effectiveRadius.push_back(appearance.effectiveRadius);
             map.roughness.push_back(appearance.roughness);

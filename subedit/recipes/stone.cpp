@@ -13,8 +13,8 @@ MaterialMap bakeMarbleChessboard(int size, const BakeSettings& settings) {
     constexpr int kSquares = 16;
     const Appearance ivory{{0.93f, 0.90f, 0.83f}, {12.5f, 11.0f, 9.0f}, 0.16f};
     const Appearance cream{{0.89f, 0.83f, 0.72f}, {11.0f, 9.4f, 7.4f}, 0.18f};
-    const Appearance black{{0.16f, 0.115f, 0.10f}, {3.2f, 2.6f, 2.3f}, 0.14f};
-    const Appearance brown{{0.27f, 0.155f, 0.11f}, {4.2f, 3.2f, 2.6f}, 0.16f};
+    const Appearance black{{0.085f, 0.065f, 0.060f}, {3.2f, 2.6f, 2.3f}, 0.14f};
+    const Appearance brown{{0.18f, 0.105f, 0.078f}, {4.2f, 3.2f, 2.6f}, 0.16f};
     const auto look = [&](glm::vec2 uv) {
         const int x = static_cast<int>(uv.x * kSquares);
         const int y = static_cast<int>(uv.y * kSquares);

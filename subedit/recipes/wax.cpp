@@ -8,9 +8,9 @@
 namespace celadon::subedit {
 
 MaterialMap bakeYellowWax(int size, const BakeSettings& settings) {
-    const Appearance clear{{0.91f, 0.68f, 0.22f}, {15.0f, 10.5f, 5.0f}, 0.32f};
-    const Appearance dense{{0.84f, 0.52f, 0.12f}, {11.0f, 7.0f, 3.4f}, 0.36f};
-    const Appearance vein{{0.46f, 0.17f, 0.035f}, {6.0f, 3.8f, 2.2f}, 0.40f};
+    const Appearance clear{{0.94f, 0.63f, 0.17f}, {15.0f, 10.5f, 5.0f}, 0.32f};
+    const Appearance dense{{0.86f, 0.46f, 0.085f}, {11.0f, 7.0f, 3.4f}, 0.36f};
+    const Appearance vein{{0.40f, 0.12f, 0.025f}, {6.0f, 3.8f, 2.2f}, 0.40f};
     const auto look = [&](glm::vec2 uv) {
         const glm::vec2 warped = uv + 0.045f * warpNoise(uv, 4, 3, 11u);
         const float cloud = smoothStep(-0.35f, 0.45f, fractalNoise(warped, 5, 3, 23u));

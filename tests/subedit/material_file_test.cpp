@@ -92,6 +92,15 @@ TEST_F(MaterialFile, FloatsComeBackBitForBit) {
     EXPECT_EQ(read.specular, map.specular);
 }
 
+TEST_F(MaterialFile, TheSameMaterialIsTheSameBytes) {
+    const MaterialMap map = test::varyingMaterial(7, 5, 8);
+    writeMaterial(map, file);
+    const std::string first = content(file);
+    EXPECT_THAT(first, HasSubstr("1970:01:01")); // and not the time of writing
+    writeMaterial(map, folder / "again.subedit.exr");
+    EXPECT_EQ(content(folder / "again.subedit.exr"), first);
+}
+
 TEST_F(MaterialFile, KnotsPast99AreFoundByName) {
     const MaterialMap map = test::exponentialMaterial(130, 13.0f, {1.0f, 2.0f, 3.0f});
     writeMaterial(map, file, StoredPrecision::Float);

@@ -1,0 +1,11 @@
+#pragma once
+
+/// Functions compiled twice, for AVX2 and for any x86-64, and chosen when the program starts. No
+/// fused multiply-add is enabled: both give the same bits. Off under sanitizers, which do not bear
+/// the indirect functions that this is made of.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) &&                             \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define CELADON_MULTIVERSION __attribute__((target_clones("avx2", "default")))
+#else
+#define CELADON_MULTIVERSION
+#endif
