@@ -201,7 +201,7 @@ struct NearTriangle {
     float reach;
 
     static constexpr int kDeepest = 5;
-    static constexpr float kNear = 6.0f;  ///< distance in spreads at which a part counts as far
+    static constexpr float kNear = 10.0f; ///< distance in spreads at which a part counts as far
     static constexpr float kFlat = 0.03f; ///< change of the kernel over a part that is small
 
     struct Corners {
@@ -218,8 +218,8 @@ struct NearTriangle {
         const float variance = (dot(da, da) + dot(db, db) + dot(dc, dc)) / 12.0f;
         const float d2 = dot(m, m);
         const float steepest = patchSteepness[0] + exitSteepness[0];
-        if (depth < kDeepest && d2 < kNear * kNear * variance &&
-            steepest * steepest * variance > kFlat * kFlat) {
+        const bool isNear = d2 < kNear * kNear * variance;
+        if (isNear && depth < kDeepest && steepest * steepest * variance > kFlat * kFlat) {
             const Float4 ab = (t.a + t.b) * 0.5f;
             const Float4 bc = (t.b + t.c) * 0.5f;
             const Float4 ca = (t.c + t.a) * 0.5f;
@@ -227,13 +227,12 @@ struct NearTriangle {
                     mean({ca, bc, t.c}, depth + 1) + mean({ab, bc, ca}, depth + 1)) *
                    0.25f;
         }
-        // As a round patch on the triangle's plane.
-        const Float4 normal{db[1] * dc[2] - db[2] * dc[1], db[2] * dc[0] - db[0] * dc[2],
-                            db[0] * dc[1] - db[1] * dc[0], 0.0f};
-        const float above = dot(normal, m);
-        const float scale = dot(normal, normal) * d2;
-        const float q =
-            scale > 0.0f ? variance * maximum(1.0f - above * above / scale, 0.0f) : variance;
+        float q = variance;
+        if (!isNear) { // the part of its covariance along the line of sight
+            const float along =
+                dot(da, m) * dot(da, m) + dot(db, m) * dot(db, m) + dot(dc, m) * dot(dc, m);
+            q = minimum(along / (6.0f * d2), d2);
+        }
         const float center = __builtin_sqrtf(d2 + variance - q);
         const float spread = __builtin_sqrtf(q);
         const float nearest = maximum(center - kSqrt2 * spread, 0.0f);
@@ -330,6 +329,9 @@ std::uint64_t gatherFootprints(const ExitBlock& exits, const PatchBlock& patches
     // than d - 2.2 s.
     const float culled = reach + 2.2f * patches.largestSpread;
     std::uint64_t pairs = 0;
+    // A node's covariance is not all of its shape, so what it may add along a direction is bounded.
+    // A triangle's is, and the bound would take energy from elongated ones.
+    const float cap = patches.corners == nullptr ? 1.3f : 2.0f;
     alignas(32) float center[kPatchBlock]; // d'
     alignas(32) float spread[kPatchBlock]; // sqrt(q)
     alignas(32) float nearest[kPatchBlock];
@@ -354,7 +356,7 @@ std::uint64_t gatherFootprints(const ExitBlock& exits, const PatchBlock& patches
             // Seen along its plane the footprint has all of its variance beside the line of sight
             // and along it; seen from above, none that changes the distance. A pair at no distance
             // lies in the plane.
-            const float directed = minimum(2.0f * along / maximum(d2, 1e-30f), 1.3f * v);
+            const float directed = minimum(2.0f * along / maximum(d2, 1e-30f), cap * v);
             const float q = d2 > 1e-12f ? maximum(directed, 0.0f) : v;
             const float c2 = maximum(d2 + v - q, 0.0f);
             const float c = __builtin_sqrtf(c2);
