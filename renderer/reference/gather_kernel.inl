@@ -70,6 +70,24 @@ Lookup lookUp(float distance, const Profiles& profiles) {
     return {clamped, position - static_cast<float>(clamped)};
 }
 
+/// Lookups of a whole block, in a loop of its own that becomes vectors.
+struct BlockLookups {
+    alignas(32) int knot[kPatchBlock];
+    alignas(32) float fraction[kPatchBlock];
+
+    void fill(const float* distances, float reach, const Profiles& profiles) {
+        const float scale = profiles.knotsPerMm;
+        const int last = profiles.segments - 1;
+        for (int j = 0; j < kPatchBlock; ++j) {
+            const float position = minimum(distances[j], reach) * scale;
+            const int k = static_cast<int>(position);
+            knot[j] = k < last ? k : last;
+            fraction[j] = position - static_cast<float>(knot[j]);
+        }
+    }
+    Lookup operator[](int j) const { return {knot[j], fraction[j]}; }
+};
+
 /// log2 sqrt(P) of one profile at two distances.
 Float8 logHalf(const float* knots, Lookup a, Lookup b) {
     const Float8 low = join(load4(knots + 4 * a.knot), load4(knots + 4 * b.knot));
@@ -282,6 +300,8 @@ void addTo(double* sums, Float8 value) {
 std::uint64_t gatherPoints(const ExitBlock& exits, const PatchBlock& patches, float reach) {
     std::uint64_t pairs = 0;
     alignas(32) float distance[kPatchBlock];
+    BlockLookups inPatch;
+    BlockLookups inExit;
     int list[kPatchBlock + 1];
     for (int o = 0; o < exits.count; ++o) {
         const float* p = exits.positions + 3 * o;
@@ -294,6 +314,8 @@ std::uint64_t gatherPoints(const ExitBlock& exits, const PatchBlock& patches, fl
             const float dz = p[2] - patches.z[j];
             distance[j] = __builtin_sqrtf(dx * dx + dy * dy + dz * dz);
         }
+        inPatch.fill(distance, reach, patches.profiles);
+        inExit.fill(distance, reach, exits.profiles);
         int n = 0;
         for (int j = 0; j < patches.count; ++j) {
             list[n] = j;
@@ -305,16 +327,13 @@ std::uint64_t gatherPoints(const ExitBlock& exits, const PatchBlock& patches, fl
             const int a = list[i];
             const bool single = i + 1 == n;
             const int b = single ? a : list[i + 1];
-            const Lookup ia = lookUp(distance[a], patches.profiles);
-            const Lookup ib = lookUp(distance[b], patches.profiles);
-            const Lookup oa = lookUp(distance[a], exits.profiles);
-            const Lookup ob = lookUp(distance[b], exits.profiles);
-            const float* ka = knotsOf(patches.profiles, a) + 4 * ia.knot;
-            const float* kb = knotsOf(patches.profiles, b) + 4 * ib.knot;
+            const float* ka = knotsOf(patches.profiles, a) + 4 * inPatch.knot[a];
+            const float* kb = knotsOf(patches.profiles, b) + 4 * inPatch.knot[b];
             const Float8 low = join(load4(ka), load4(kb));
             const Float8 high = join(load4(ka + 4), load4(kb + 4));
-            const Float8 kernel = exp2(low + (high - low) * join(ia.fraction, ib.fraction) +
-                                       logHalf(exitKnots, oa, ob));
+            const Float8 kernel =
+                exp2(low + (high - low) * join(inPatch.fraction[a], inPatch.fraction[b]) +
+                     logHalf(exitKnots, inExit[a], inExit[b]));
             const Float4 zero{};
             sum += kernel * join(load4(patches.flux[a]), single ? zero : load4(patches.flux[b]));
         }
@@ -325,9 +344,7 @@ std::uint64_t gatherPoints(const ExitBlock& exits, const PatchBlock& patches, fl
 }
 
 std::uint64_t gatherFootprints(const ExitBlock& exits, const PatchBlock& patches, float reach) {
-    // The nearest edge of a disc of variance q <= 1.3 s^2 about d' >= d - 0.55 s is never nearer
-    // than d - 2.2 s.
-    const float culled = reach + 2.2f * patches.largestSpread;
+    const float culled = reach + kSpreadsOutwards * patches.largestSpread;
     std::uint64_t pairs = 0;
     // A node's covariance is not all of its shape, so what it may add along a direction is bounded.
     // A triangle's is, and the bound would take energy from elongated ones.
@@ -337,6 +354,7 @@ std::uint64_t gatherFootprints(const ExitBlock& exits, const PatchBlock& patches
     alignas(32) float nearest[kPatchBlock];
     alignas(32) float minus[kPatchBlock]; // the two distances of the gentle rule
     alignas(32) float plus[kPatchBlock];
+    BlockLookups nearestInPatch, nearestInExit, minusInPatch, minusInExit, plusInPatch, plusInExit;
     int list[kPatchBlock + 1];
     for (int o = 0; o < exits.count; ++o) {
         const float* p = exits.positions + 3 * o;
@@ -369,6 +387,12 @@ std::uint64_t gatherFootprints(const ExitBlock& exits, const PatchBlock& patches
             minus[j] = __builtin_sqrtf(maximum(c2 + q - deviation, 0.0f));
             plus[j] = __builtin_sqrtf(c2 + q + deviation);
         }
+        nearestInPatch.fill(nearest, reach, patches.profiles);
+        nearestInExit.fill(nearest, reach, exits.profiles);
+        minusInPatch.fill(minus, reach, patches.profiles);
+        minusInExit.fill(minus, reach, exits.profiles);
+        plusInPatch.fill(plus, reach, patches.profiles);
+        plusInExit.fill(plus, reach, exits.profiles);
         int n = 0;
         for (int j = 0; j < patches.count; ++j) {
             list[n] = j;
@@ -381,9 +405,8 @@ std::uint64_t gatherFootprints(const ExitBlock& exits, const PatchBlock& patches
             const int j = list[i];
             const Pair pair{knotsOf(patches.profiles, j), exitKnots, patches.profiles,
                             exits.profiles};
-            const float steepness =
-                steepnessOf(patches.profiles, j)[lookUp(nearest[j], patches.profiles).knot] +
-                exitSteepness[lookUp(nearest[j], exits.profiles).knot];
+            const float steepness = steepnessOf(patches.profiles, j)[nearestInPatch.knot[j]] +
+                                    exitSteepness[nearestInExit.knot[j]];
             const Float4 flux = load4(patches.flux[j]);
             if (patches.corners != nullptr && center[j] * center[j] < NearTriangle::kNear *
                                                                           NearTriangle::kNear *
@@ -395,8 +418,9 @@ std::uint64_t gatherFootprints(const ExitBlock& exits, const PatchBlock& patches
                        spread[j] <= kGentleAngle * center[j]) {
                 const Float8 weights =
                     join(minus[j] <= reach ? 0.5f : 0.0f, plus[j] <= reach ? 0.5f : 0.0f);
-                sum += pair.kernel(minimum(minus[j], reach), minimum(plus[j], reach)) * weights *
-                       join(flux, flux);
+                sum += exp2(logHalf(pair.patchKnots, minusInPatch[j], plusInPatch[j]) +
+                            logHalf(exitKnots, minusInExit[j], plusInExit[j])) *
+                       weights * join(flux, flux);
             } else {
                 sum += discMean(pair, center[j], kSqrt2 * spread[j], steepness, reach) *
                        join(flux, flux);
