@@ -10,6 +10,10 @@ namespace celadon::gather {
 inline constexpr int kPatchBlock = 64; ///< patches a block at most, a multiple of kLanes
 inline constexpr int kLanes = 8;
 
+/// How far beyond a patch's mean position it can reach, in roots of its covariance's trace: a disc
+/// of variance q <= 1.3 s^2 about d' >= d - 0.55 s 2.2, the corner of a thin triangle 2.9.
+inline constexpr float kSpreadsOutwards = 3.0f;
+
 /// The profiles of a block's points, all of one material.
 /// Half of log2 P, so that the sum of both ends is the log2 of sqrt(P_i P_o).
 struct Profiles {

@@ -70,6 +70,24 @@ Lookup lookUp(float distance, const Profiles& profiles) {
     return {clamped, position - static_cast<float>(clamped)};
 }
 
+/// Lookups of a whole block, in a loop of its own that becomes vectors.
+struct BlockLookups {
+    alignas(32) int knot[kPatchBlock];
+    alignas(32) float fraction[kPatchBlock];
+
+    void fill(const float* distances, float reach, const Profiles& profiles) {
+        const float scale = profiles.knotsPerMm;
+        const int last = profiles.segments - 1;
+        for (int j = 0; j < kPatchBlock; ++j) {
+            const float position = minimum(distances[j], reach) * scale;
+            const int k = static_cast<int>(position);
+            knot[j] = k < last ? k : last;
+            fraction[j] = position - static_cast<float>(knot[j]);
+        }
+    }
+    Lookup operator[](int j) const { return {knot[j], fraction[j]}; }
+};
+
 /// log2 sqrt(P) of one profile at two distances.
 Float8 logHalf(const float* knots, Lookup a, Lookup b) {
     const Float8 low = join(load4(knots + 4 * a.knot), load4(knots + 4 * b.knot));
@@ -201,7 +219,7 @@ struct NearTriangle {
     float reach;
 
     static constexpr int kDeepest = 5;
-    static constexpr float kNear = 6.0f;  ///< distance in spreads at which a part counts as far
+    static constexpr float kNear = 10.0f; ///< distance in spreads at which a part counts as far
     static constexpr float kFlat = 0.03f; ///< change of the kernel over a part that is small
 
     struct Corners {
@@ -218,8 +236,8 @@ struct NearTriangle {
         const float variance = (dot(da, da) + dot(db, db) + dot(dc, dc)) / 12.0f;
         const float d2 = dot(m, m);
         const float steepest = patchSteepness[0] + exitSteepness[0];
-        if (depth < kDeepest && d2 < kNear * kNear * variance &&
-            steepest * steepest * variance > kFlat * kFlat) {
+        const bool isNear = d2 < kNear * kNear * variance;
+        if (isNear && depth < kDeepest && steepest * steepest * variance > kFlat * kFlat) {
             const Float4 ab = (t.a + t.b) * 0.5f;
             const Float4 bc = (t.b + t.c) * 0.5f;
             const Float4 ca = (t.c + t.a) * 0.5f;
@@ -227,13 +245,12 @@ struct NearTriangle {
                     mean({ca, bc, t.c}, depth + 1) + mean({ab, bc, ca}, depth + 1)) *
                    0.25f;
         }
-        // As a round patch on the triangle's plane.
-        const Float4 normal{db[1] * dc[2] - db[2] * dc[1], db[2] * dc[0] - db[0] * dc[2],
-                            db[0] * dc[1] - db[1] * dc[0], 0.0f};
-        const float above = dot(normal, m);
-        const float scale = dot(normal, normal) * d2;
-        const float q =
-            scale > 0.0f ? variance * maximum(1.0f - above * above / scale, 0.0f) : variance;
+        float q = variance;
+        if (!isNear) { // the part of its covariance along the line of sight
+            const float along =
+                dot(da, m) * dot(da, m) + dot(db, m) * dot(db, m) + dot(dc, m) * dot(dc, m);
+            q = minimum(along / (6.0f * d2), d2);
+        }
         const float center = __builtin_sqrtf(d2 + variance - q);
         const float spread = __builtin_sqrtf(q);
         const float nearest = maximum(center - kSqrt2 * spread, 0.0f);
@@ -283,6 +300,8 @@ void addTo(double* sums, Float8 value) {
 std::uint64_t gatherPoints(const ExitBlock& exits, const PatchBlock& patches, float reach) {
     std::uint64_t pairs = 0;
     alignas(32) float distance[kPatchBlock];
+    BlockLookups inPatch;
+    BlockLookups inExit;
     int list[kPatchBlock + 1];
     for (int o = 0; o < exits.count; ++o) {
         const float* p = exits.positions + 3 * o;
@@ -295,6 +314,8 @@ std::uint64_t gatherPoints(const ExitBlock& exits, const PatchBlock& patches, fl
             const float dz = p[2] - patches.z[j];
             distance[j] = __builtin_sqrtf(dx * dx + dy * dy + dz * dz);
         }
+        inPatch.fill(distance, reach, patches.profiles);
+        inExit.fill(distance, reach, exits.profiles);
         int n = 0;
         for (int j = 0; j < patches.count; ++j) {
             list[n] = j;
@@ -306,16 +327,13 @@ std::uint64_t gatherPoints(const ExitBlock& exits, const PatchBlock& patches, fl
             const int a = list[i];
             const bool single = i + 1 == n;
             const int b = single ? a : list[i + 1];
-            const Lookup ia = lookUp(distance[a], patches.profiles);
-            const Lookup ib = lookUp(distance[b], patches.profiles);
-            const Lookup oa = lookUp(distance[a], exits.profiles);
-            const Lookup ob = lookUp(distance[b], exits.profiles);
-            const float* ka = knotsOf(patches.profiles, a) + 4 * ia.knot;
-            const float* kb = knotsOf(patches.profiles, b) + 4 * ib.knot;
+            const float* ka = knotsOf(patches.profiles, a) + 4 * inPatch.knot[a];
+            const float* kb = knotsOf(patches.profiles, b) + 4 * inPatch.knot[b];
             const Float8 low = join(load4(ka), load4(kb));
             const Float8 high = join(load4(ka + 4), load4(kb + 4));
-            const Float8 kernel = exp2(low + (high - low) * join(ia.fraction, ib.fraction) +
-                                       logHalf(exitKnots, oa, ob));
+            const Float8 kernel =
+                exp2(low + (high - low) * join(inPatch.fraction[a], inPatch.fraction[b]) +
+                     logHalf(exitKnots, inExit[a], inExit[b]));
             const Float4 zero{};
             sum += kernel * join(load4(patches.flux[a]), single ? zero : load4(patches.flux[b]));
         }
@@ -326,15 +344,17 @@ std::uint64_t gatherPoints(const ExitBlock& exits, const PatchBlock& patches, fl
 }
 
 std::uint64_t gatherFootprints(const ExitBlock& exits, const PatchBlock& patches, float reach) {
-    // The nearest edge of a disc of variance q <= 1.3 s^2 about d' >= d - 0.55 s is never nearer
-    // than d - 2.2 s.
-    const float culled = reach + 2.2f * patches.largestSpread;
+    const float culled = reach + kSpreadsOutwards * patches.largestSpread;
     std::uint64_t pairs = 0;
+    // A node's covariance is not all of its shape, so what it may add along a direction is bounded.
+    // A triangle's is, and the bound would take energy from elongated ones.
+    const float cap = patches.corners == nullptr ? 1.3f : 2.0f;
     alignas(32) float center[kPatchBlock]; // d'
     alignas(32) float spread[kPatchBlock]; // sqrt(q)
     alignas(32) float nearest[kPatchBlock];
     alignas(32) float minus[kPatchBlock]; // the two distances of the gentle rule
     alignas(32) float plus[kPatchBlock];
+    BlockLookups nearestInPatch, nearestInExit, minusInPatch, minusInExit, plusInPatch, plusInExit;
     int list[kPatchBlock + 1];
     for (int o = 0; o < exits.count; ++o) {
         const float* p = exits.positions + 3 * o;
@@ -354,7 +374,7 @@ std::uint64_t gatherFootprints(const ExitBlock& exits, const PatchBlock& patches
             // Seen along its plane the footprint has all of its variance beside the line of sight
             // and along it; seen from above, none that changes the distance. A pair at no distance
             // lies in the plane.
-            const float directed = minimum(2.0f * along / maximum(d2, 1e-30f), 1.3f * v);
+            const float directed = minimum(2.0f * along / maximum(d2, 1e-30f), cap * v);
             const float q = d2 > 1e-12f ? maximum(directed, 0.0f) : v;
             const float c2 = maximum(d2 + v - q, 0.0f);
             const float c = __builtin_sqrtf(c2);
@@ -367,6 +387,12 @@ std::uint64_t gatherFootprints(const ExitBlock& exits, const PatchBlock& patches
             minus[j] = __builtin_sqrtf(maximum(c2 + q - deviation, 0.0f));
             plus[j] = __builtin_sqrtf(c2 + q + deviation);
         }
+        nearestInPatch.fill(nearest, reach, patches.profiles);
+        nearestInExit.fill(nearest, reach, exits.profiles);
+        minusInPatch.fill(minus, reach, patches.profiles);
+        minusInExit.fill(minus, reach, exits.profiles);
+        plusInPatch.fill(plus, reach, patches.profiles);
+        plusInExit.fill(plus, reach, exits.profiles);
         int n = 0;
         for (int j = 0; j < patches.count; ++j) {
             list[n] = j;
@@ -379,9 +405,8 @@ std::uint64_t gatherFootprints(const ExitBlock& exits, const PatchBlock& patches
             const int j = list[i];
             const Pair pair{knotsOf(patches.profiles, j), exitKnots, patches.profiles,
                             exits.profiles};
-            const float steepness =
-                steepnessOf(patches.profiles, j)[lookUp(nearest[j], patches.profiles).knot] +
-                exitSteepness[lookUp(nearest[j], exits.profiles).knot];
+            const float steepness = steepnessOf(patches.profiles, j)[nearestInPatch.knot[j]] +
+                                    exitSteepness[nearestInExit.knot[j]];
             const Float4 flux = load4(patches.flux[j]);
             if (patches.corners != nullptr && center[j] * center[j] < NearTriangle::kNear *
                                                                           NearTriangle::kNear *
@@ -393,8 +418,9 @@ std::uint64_t gatherFootprints(const ExitBlock& exits, const PatchBlock& patches
                        spread[j] <= kGentleAngle * center[j]) {
                 const Float8 weights =
                     join(minus[j] <= reach ? 0.5f : 0.0f, plus[j] <= reach ? 0.5f : 0.0f);
-                sum += pair.kernel(minimum(minus[j], reach), minimum(plus[j], reach)) * weights *
-                       join(flux, flux);
+                sum += exp2(logHalf(pair.patchKnots, minusInPatch[j], plusInPatch[j]) +
+                            logHalf(exitKnots, minusInExit[j], plusInExit[j])) *
+                       weights * join(flux, flux);
             } else {
                 sum += discMean(pair, center[j], kSqrt2 * spread[j], steepness, reach) *
                        join(flux, flux);

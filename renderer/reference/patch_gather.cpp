@@ -240,9 +240,9 @@ GatherResult gatherExitance(std::span<const ExitPoint> exitPoints, std::span<con
         for (const Block& patchBlock : patchBlocks) {
             const MaterialMap& material = *materials[patchBlock.material];
             const float reach = std::min(material.maxRadiusMm, exitMaterial.maxRadiusMm);
-            // 2.2 spreads: how far a footprint can reach towards the point, see the kernel.
-            const float culled =
-                options.pointSamples ? reach : reach + 2.2f * patchBlock.largestSpread;
+            const float culled = options.pointSamples
+                                     ? reach
+                                     : reach + gather::kSpreadsOutwards * patchBlock.largestSpread;
             if (block.bounds.squaredDistance(patchBlock.bounds) > culled * culled) {
                 continue;
             }

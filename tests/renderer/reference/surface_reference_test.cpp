@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <atomic>
+#include <string>
 
 namespace celadon {
 namespace {
@@ -48,8 +51,7 @@ TEST(SurfaceReference, UniformLightOnALargeSlabGivesAlbedoTimesTransmittedIrradi
                 worst = std::max(worst, std::abs(exitance[c] / expected[c] - 1.0));
             }
         }
-        EXPECT_LT(worst, 0.005) << cells;
-        std::printf("cells %d: worst %g, error %g\n", cells, worst, result.relativeError);
+        EXPECT_LT(worst, 0.003) << cells; // measured 0.0006
     }
 }
 
@@ -145,49 +147,105 @@ TEST(SurfaceReference, ErrorFallsAsSamplesDouble) {
     const World world =
         makeWorld({{makeBentPlate(20, 50, 24)}}, {makeHomogeneous({0.6, 0.5, 0.4}, 11)});
     const SurfaceReference reference(world);
-    const std::vector<ExitPoint> exits = randomExitPoints(world, 300);
+    const std::vector<ExitPoint> exits = randomExitPoints(world, 200);
     const std::array lights{directionalLight({-1, -0.4, 0.3})}; // shadows itself
     const SurfaceReferenceResult truth =
-        reference.solve(exits, lights, {.samples = 400000, .seed = 99});
+        reference.solve(exits, lights, {.samples = 300000, .seed = 99});
     std::vector<double> errors;
     for (int samples = 4000; samples <= 64000; samples *= 2) {
         const SurfaceReferenceResult result = reference.solve(exits, lights, {.samples = samples});
         const double error = compareExitance(result.exitance, truth.exitance).relativeRmse;
-        std::printf("%d samples: error %.4f %%, estimate %.4f %%, %g M pairs\n", samples,
-                    100 * error, 100 * result.relativeError,
-                    1e-6 * static_cast<double>(result.pairs));
         errors.push_back(error);
-        // The estimate is honest: neither a tenth nor ten times of what it estimates.
-        EXPECT_GT(result.relativeError, 0.3 * error) << samples;
-        EXPECT_LT(result.relativeError, 3.0 * error) << samples;
+        // The estimate is an honest one: two halves of some hundred points cannot be far off.
+        EXPECT_GT(result.relativeError, 0.4 * error) << samples;
+        EXPECT_LT(result.relativeError, 2.5 * error) << samples;
     }
-    // Cells with one place each converge at least as 1/N^(3/4) at a shadow's border, faster
-    // elsewhere; four doublings make a factor of 8.
+    // One place a cell makes N^(-3/4) at a shadow's border, 8 over these four doublings;
+    // measured 14.
     EXPECT_LT(errors.back(), errors.front() / 8);
-    EXPECT_LT(errors.back(), 0.01);
+    EXPECT_LT(errors.back(), 1e-3);
+}
+
+TEST(SurfaceReference, TheSameSeedGivesTheSamePatchesAndAnotherGivesOthers) {
+    const World world = makeWorld({{makeSphere(20, 8)}}, {makeHomogeneous({1, 0.8, 0.6}, 16)});
+    const SurfaceReference reference(world);
+    const std::array lights{directionalLight({1, 0, -1})};
+    const SurfacePatches a = reference.samplePatches(lights, 3000, 5);
+    const SurfacePatches b = reference.samplePatches(lights, 3000, 5);
+    const SurfacePatches c = reference.samplePatches(lights, 3000, 6);
+    ASSERT_EQ(a.patches.size(), b.patches.size());
+    ASSERT_EQ(a.patches.size(), a.triangles.size());
+    std::size_t shared = 0;
+    for (std::size_t i = 0; i < a.patches.size(); ++i) {
+        EXPECT_EQ(a.patches[i].positionMm, b.patches[i].positionMm);
+        EXPECT_EQ(a.patches[i].flux, b.patches[i].flux);
+        shared += std::ranges::any_of(c.patches, [&](const Patch& patch) {
+            return patch.positionMm == a.patches[i].positionMm;
+        });
+    }
+    EXPECT_LT(shared, a.patches.size() / 4);
+}
+
+TEST(SurfaceReference, CanBeCancelledAndReportsProgress) {
+    const World world = makeWorld({{makeSphere(20, 24)}}, {makeHomogeneous({1, 0.8, 0.6}, 16)});
+    const SurfaceReference reference(world);
+    const std::vector<ExitPoint> exits = randomExitPoints(world, 2000);
+    const std::array lights{directionalLight({1, 0, -1})};
+    std::vector<double> reports;
+    SurfaceReferenceOptions options{.samples = 5000};
+    options.gather.progress = [&](double done) { reports.push_back(done); };
+    EXPECT_FALSE(reference.solve(exits, lights, options).cancelled);
+    EXPECT_TRUE(std::ranges::is_sorted(reports));
+    EXPECT_GT(reports.size(), 4u);
+    EXPECT_DOUBLE_EQ(reports.back(), 1.0);
+    const std::atomic<bool> cancel{true};
+    options.gather.cancel = &cancel;
+    EXPECT_TRUE(reference.solve(exits, lights, options).cancelled);
+}
+
+TEST(SurfaceReference, TakesNoHarmFarFromTheOriginNorFromDegenerateTriangles) {
+    const std::vector<MaterialPointer> materials{makeHomogeneous({1, 0.8, 0.6}, 16)};
+    const World near = makeWorld({{makeSphere(20, 24)}}, materials);
+    // 1 km off, positions are rounded to 0.06 mm: still no speckle of surface that shadows itself.
+    const World far = makeWorld({{makeSphere(20, 24, {1e6, -1e6, 5e5})}}, materials);
+    const std::array lights{directionalLight({1, 0, -1})};
+    const double flux = totalFlux(SurfaceReference(near).samplePatches(lights, 20000, 1)).x;
+    EXPECT_NEAR(totalFlux(SurfaceReference(far).samplePatches(lights, 20000, 1)).x / flux, 1.0,
+                0.01);
+
+    World broken = near;
+    Mesh& mesh = broken.meshes[0].mesh;
+    for (const std::uint32_t index : {0u, 0u, 0u, 1u, 1u, 2u}) {
+        mesh.indices.push_back(index);
+    }
+    mesh.normals[5] = glm::vec3(0);
+    mesh.uvs.clear();
+    EXPECT_NEAR(totalFlux(SurfaceReference(broken).samplePatches(lights, 20000, 1)).x / flux, 1.0,
+                0.01);
+    broken.meshes.clear();
+    EXPECT_TRUE(SurfaceReference(broken).samplePatches(lights, 10, 1).patches.empty());
 }
 
 struct Comparison {
     ErrorMetrics image;
-    ErrorMetrics points;
-    double noise;
+    ErrorMetrics points; ///< texels without extent
 };
 
 Comparison compareImageWithSurface(const World& world, const Light& light, int size) {
     const SurfaceReference reference(world);
-    const std::vector<ExitPoint> exits = randomExitPoints(world, 500);
+    const std::vector<ExitPoint> exits = randomExitPoints(world, 200);
     const std::array lights{light};
-    const SurfaceReferenceResult truth = reference.solve(exits, lights, {.samples = 300000});
+    const SurfaceReferenceResult truth = reference.solve(exits, lights, {.samples = 100000});
+    EXPECT_LT(truth.relativeError, 2e-3); // below what is asked of the image by far
     const std::vector<Patch> patches = lightViewPatches(reference.rays(), light, size);
     const GatherResult image = gatherExitance(exits, patches, world.materials);
     const GatherResult points =
         gatherExitance(exits, patches, world.materials, {.pointSamples = true});
     Comparison comparison{compareExitance(image.exitance, truth.exitance),
-                          compareExitance(points.exitance, truth.exitance), truth.relativeError};
-    std::printf("image %.3f %% ratio %.5f, points %.3f %% ratio %.5f, noise %.3f %%\n",
-                100 * comparison.image.relativeRmse, comparison.image.meanRatio,
-                100 * comparison.points.relativeRmse, comparison.points.meanRatio,
-                100 * truth.relativeError);
+                          compareExitance(points.exitance, truth.exitance)};
+    const auto percent = [](double value) { return std::to_string(100 * value); };
+    ::testing::Test::RecordProperty("image_percent", percent(comparison.image.relativeRmse));
+    ::testing::Test::RecordProperty("points_percent", percent(comparison.points.relativeRmse));
     return comparison;
 }
 
@@ -217,6 +275,19 @@ TEST(ImageAgainstSurface, AgreeOnABentPlateThatShadowsItself) {
     const Comparison cube = compareImageWithSurface(inside, pointLight({3, 2, 5}), 256);
     EXPECT_LT(cube.image.relativeRmse, 0.01);
     EXPECT_NEAR(cube.image.meanRatio, 1.0, 0.003);
+}
+
+TEST(ImageAgainstSurface, FootprintsMakeCoarseTexelsWork) {
+    // The longest R_P is 3 mm on 100 mm, 0.4 mm a texel: points fail, footprints
+    // are off by a percent or two, and a finer view by less.
+    const World world =
+        makeWorld({{makeSphere(50, 48)}}, {makeHomogeneous({0.37, 0.3, 0.24}, 7.4f)});
+    const Light light = directionalLight({-1, 0.5, -0.3});
+    const Comparison coarse = compareImageWithSurface(world, light, 256);
+    const Comparison fine = compareImageWithSurface(world, light, 512);
+    EXPECT_GT(coarse.points.relativeRmse, 0.08);
+    EXPECT_LT(coarse.image.relativeRmse, 0.03);
+    EXPECT_LT(fine.image.relativeRmse, 0.6 * coarse.image.relativeRmse);
 }
 
 } // namespace
