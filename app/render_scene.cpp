@@ -68,9 +68,6 @@ World readWorld(const RenderOptions& options, int frame) {
             fallback = readMaterialArgument(subedit::kDefaultMaterial);
         }
     }
-    for (const std::string& warning : scene.warnings) {
-        log::warning("{}", warning);
-    }
     World world = buildWorld(std::move(scene), override, named, fallback,
                              {options.millimetersPerUnit, options.diameterMm});
     for (const std::string& warning : world.warnings) {
