@@ -4,6 +4,7 @@ add_library(celadon_options INTERFACE)
 target_compile_features(celadon_options INTERFACE cxx_std_20)
 target_compile_options(celadon_options INTERFACE
     -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> # GCC 12 is wrong about std::string operator+ (PR 105329)
     $<$<BOOL:${CELADON_WERROR}>:-Werror>)
 if(CELADON_ASSERTIONS)
     target_compile_definitions(celadon_options INTERFACE CELADON_ASSERTIONS=1)

@@ -1,0 +1,297 @@
+#include "app/command_material.h"
+
+#include "app/rgb_argument.h"
+#include "subedit/errors.h"
+#include "subedit/map/image_map.h"
+#include "subedit/map/material_bake.h"
+#include "subedit/map/material_file.h"
+#include "subedit/map/shipped_materials.h"
+#include "subedit/medium.h"
+#include "subedit/radius_map.h"
+#include "subedit/recipes/recipes.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <optional>
+
+namespace celadon {
+
+namespace {
+
+using namespace subedit;
+
+constexpr float kSmallestMeanFreePathMm = 1e-4f;
+constexpr float kLargestMeanFreePathMm = 1e4f;
+
+struct BakeOptions {
+    std::string recipe;
+    bool list = false;
+    std::string albedo;
+    std::string meanFreePath;
+    double meanFreePathScale = 1.0;
+    int size = 0;
+    int segments = 0;
+    double maxRadiusMm = 0.0;
+    double eta = 1.4;
+    std::string name;
+    bool storeFloat = false;
+    std::string output;
+};
+
+struct InfoOptions {
+    std::string material;
+    bool json = false;
+};
+
+/// An image or, if the text is numbers, one texel of them.
+ImageMap readMap(const std::string& text, ImageMeaning meaning) {
+    if (const std::optional<glm::dvec3> constant = parseRgb(text)) {
+        return {1, 1, {glm::vec3(*constant)}};
+    }
+    return readImageMap(text, meaning);
+}
+
+/// Refuses a map with a value outside [low, high].
+void checkRange(const std::string& option, const std::string& text, const ImageMap& map, float low,
+                float high) {
+    for (std::size_t i = 0; i < map.values.size(); ++i) {
+        for (int channel = 0; channel < 3; ++channel) {
+            const float value = map.values[i][channel];
+            if (!(value >= low && value <= high)) {
+                const auto width = static_cast<std::size_t>(map.width);
+                throw InputError(fmt::format("{} '{}'", option, text),
+                                 fmt::format("{} is {} at pixel ({}, {}), not in [{}, {}]",
+                                             channelName(channel), value, i % width, i / width, low,
+                                             high));
+            }
+        }
+    }
+}
+
+MaterialMap bakeMaps(const BakeOptions& options, const BakeSettings& settings) {
+    ImageMap albedo = readMap(options.albedo, ImageMeaning::Color);
+    ImageMap path = readMap(options.meanFreePath, ImageMeaning::Data);
+    checkRange("--albedo", options.albedo, albedo, 0.0f, 1.0f);
+    for (glm::vec3& value : path.values) {
+        value *= static_cast<float>(options.meanFreePathScale);
+    }
+    checkRange("--mean-free-path", options.meanFreePath, path, kSmallestMeanFreePathMm,
+               kLargestMeanFreePathMm);
+
+    const bool isAlbedoConstant = albedo.values.size() == 1;
+    const bool isPathConstant = path.values.size() == 1;
+    if (!isAlbedoConstant && !isPathConstant && options.size == 0 &&
+        (albedo.width != path.width || albedo.height != path.height)) {
+        throw InputError(fmt::format("--albedo '{}'", options.albedo),
+                         fmt::format("is {} x {}, but --mean-free-path '{}' is {} x {}",
+                                     albedo.width, albedo.height, options.meanFreePath, path.width,
+                                     path.height),
+                         "give --size to resample both");
+    }
+    const int width = options.size > 0 ? options.size : std::max(albedo.width, path.width);
+    const int height = options.size > 0 ? options.size : std::max(albedo.height, path.height);
+    const double values = static_cast<double>(width) * height * (settings.segments + 1) * 3;
+    if (values * sizeof(float) > 4e9) {
+        throw UsageError("material bake",
+                         fmt::format("{} x {} texels of {} segments are {:.1f} GB", width, height,
+                                     settings.segments, values * sizeof(float) / 1e9),
+                         "give a smaller --size");
+    }
+    if (albedo.width != width || albedo.height != height) {
+        albedo = resizeImageMap(albedo, width, height);
+    }
+    if (path.width != width || path.height != height) {
+        path = resizeImageMap(path, width, height);
+    }
+    AppearanceMap appearance;
+    appearance.width = width;
+    appearance.height = height;
+    appearance.eta = static_cast<float>(options.eta);
+    appearance.albedo = albedo.values;
+    for (std::size_t i = 0; i < albedo.values.size(); ++i) {
+        appearance.effectiveRadius.push_back(
+            effectiveRadiusFromMeanFreePath(albedo.values[i], path.values[i]));
+    }
+    return bakeAppearance(appearance, settings);
+}
+
+/// Least and greatest of per-texel values, by channel or alone.
+struct Extent {
+    float least = std::numeric_limits<float>::infinity();
+    float greatest = -std::numeric_limits<float>::infinity();
+
+    void add(float value) {
+        least = std::min(least, value);
+        greatest = std::max(greatest, value);
+    }
+};
+
+struct MaterialSummary {
+    Extent albedo[3];
+    Extent radius;
+    double memoryMb = 0.0;
+};
+
+MaterialSummary summarize(const MaterialMap& map) {
+    MaterialSummary summary;
+    const std::vector<float> albedo = albedoMap(map);
+    for (std::size_t i = 0; i < albedo.size(); ++i) {
+        summary.albedo[i % 3].add(albedo[i]);
+    }
+    for (const float radius : effectiveRadiusMap(map)) {
+        summary.radius.add(radius);
+    }
+    summary.memoryMb = static_cast<double>(map.logProfile.size() * sizeof(float)) / 1e6;
+    return summary;
+}
+
+void printSummary(const MaterialMap& map, const MaterialSummary& summary) {
+    fmt::print("name      {}\n", map.name);
+    fmt::print("size      {} x {} texels{}\n", map.width, map.height,
+               map.isHomogeneous() ? " (homogeneous)" : "");
+    fmt::print("segments  {} to r_s = {:.4g} mm\n", map.segments, map.maxRadiusMm);
+    fmt::print("eta       {:.4g}\n", map.eta);
+    for (int channel = 0; channel < 3; ++channel) {
+        fmt::print("albedo    {:5} {:.4f} to {:.4f}\n", channelName(channel),
+                   summary.albedo[channel].least, summary.albedo[channel].greatest);
+    }
+    fmt::print("R_P       {:.4g} to {:.4g} mm (energy 0.95, largest channel)\n",
+               summary.radius.least, summary.radius.greatest);
+    fmt::print("channels  {}{}\n", map.roughness.empty() ? "no roughness" : "roughness",
+               map.specular.empty() ? ", no specular" : ", specular");
+    fmt::print("memory    {:.4g} MB\n", summary.memoryMb);
+}
+
+void runBake(const BakeOptions& options) {
+    if (options.list) {
+        for (const Recipe& recipe : recipes()) {
+            fmt::print("{:18} {}\n", recipe.name, recipe.description);
+        }
+        return;
+    }
+    const bool fromMaps = !options.albedo.empty() || !options.meanFreePath.empty();
+    if (options.recipe.empty() == !fromMaps) {
+        throw UsageError("material bake",
+                         fromMaps ? "a recipe and maps are both given" : "nothing to bake is given",
+                         "use --recipe NAME (--list shows them), or --albedo with "
+                         "--mean-free-path");
+    }
+    if (fromMaps && (options.albedo.empty() || options.meanFreePath.empty())) {
+        throw UsageError("material bake", options.albedo.empty() ? "--albedo is missing"
+                                                                 : "--mean-free-path is missing");
+    }
+    if (options.output.empty()) {
+        throw UsageError("material bake", "-o is missing", "name the file to write");
+    }
+    BakeSettings settings;
+    settings.maxRadiusMm = options.maxRadiusMm;
+    MaterialMap map;
+    if (fromMaps) {
+        settings.segments = options.segments > 0 ? options.segments : settings.segments;
+        map = bakeMaps(options, settings);
+        map.name = std::filesystem::path(options.output).stem().stem().string();
+    } else {
+        const Recipe& recipe = findRecipe(options.recipe);
+        settings.segments = options.segments > 0 ? options.segments : recipe.segments;
+        map = recipe.bake(options.size > 0 ? options.size : recipe.size, settings);
+    }
+    if (!options.name.empty()) {
+        map.name = options.name;
+    }
+    writeMaterial(map, options.output,
+                  options.storeFloat ? StoredPrecision::Float : StoredPrecision::Half);
+}
+
+nlohmann::json summaryJson(const MaterialMap& map, const MaterialSummary& summary,
+                           const std::vector<std::string>& warnings) {
+    nlohmann::json albedoMin = nlohmann::json::array();
+    nlohmann::json albedoMax = nlohmann::json::array();
+    for (const Extent& extent : summary.albedo) {
+        albedoMin.push_back(extent.least);
+        albedoMax.push_back(extent.greatest);
+    }
+    return {{"name", map.name},
+            {"size", {map.width, map.height}},
+            {"segments", map.segments},
+            {"maxRadius", map.maxRadiusMm},
+            {"eta", map.eta},
+            {"albedo", {{"min", albedoMin}, {"max", albedoMax}}},
+            {"effectiveRadius", {{"min", summary.radius.least}, {"max", summary.radius.greatest}}},
+            {"roughness", !map.roughness.empty()},
+            {"specular", !map.specular.empty()},
+            {"memoryMegabytes", summary.memoryMb},
+            {"warnings", warnings}};
+}
+
+void runInfo(const InfoOptions& options) {
+    std::vector<std::string> warnings;
+    const std::filesystem::path file = findMaterial(options.material);
+    const MaterialMap map = readMaterial(file, &warnings);
+    const MaterialSummary summary = summarize(map);
+    if (options.json) {
+        // A name that is not UTF-8 is shown with replacement characters rather than refused.
+        fmt::print("{}\n", summaryJson(map, summary, warnings)
+                               .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+    } else {
+        printSummary(map, summary);
+    }
+    for (const std::string& warning : warnings) {
+        fmt::print(stderr, "celadon: warning: '{}': {}\n", file.string(), warning);
+    }
+}
+
+void addBake(CLI::App& material) {
+    const auto options = std::make_shared<BakeOptions>();
+    CLI::App* bake = material.add_subcommand("bake", "make a material from a recipe or from maps");
+    bake->add_option("--recipe", options->recipe, "procedural or measured material, see --list");
+    bake->add_flag("--list", options->list, "list the recipes");
+    bake->add_option("--albedo", options->albedo,
+                     "image or R,G,B: surface albedo; integer images are sRGB encoded");
+    bake->add_option("--mean-free-path", options->meanFreePath,
+                     "image or R,G,B: 1/sigma_t' in mm, linear");
+    bake->add_option("--mean-free-path-scale", options->meanFreePathScale,
+                     "mm that 1 in the mean free path image stands for")
+        ->check(CLI::Range(1e-6, 1e6))
+        ->capture_default_str();
+    bake->add_option("--size", options->size, "texels a side (default: the recipe's or the maps')")
+        ->check(CLI::Range(1, 4096));
+    bake->add_option("--segments", options->segments, "of the stored profiles")
+        ->check(CLI::Range(1, kMaxSegments));
+    bake->add_option("--max-radius", options->maxRadiusMm,
+                     "r_s in mm (default: holds 99.9 % of the longest profile)")
+        ->check(CLI::Range(1e-6, 1e6));
+    bake->add_option("--eta", options->eta, "relative index of refraction, for maps")
+        ->check(CLI::Range(0.5, 4.0))
+        ->capture_default_str();
+    bake->add_option("--name", options->name, "of the material");
+    bake->add_flag("--float", options->storeFloat, "store single instead of half precision");
+    bake->add_option("-o,--output", options->output, "FILE.subedit.exr");
+    bake->callback([options] { runBake(*options); });
+}
+
+void addInfo(CLI::App& material) {
+    const auto options = std::make_shared<InfoOptions>();
+    CLI::App* info = material.add_subcommand("info", "what a material file holds");
+    info->add_option("material", options->material, "file, or name of a shipped one")->required();
+    info->add_flag("--json", options->json, "one JSON object");
+    info->callback([options] { runInfo(*options); });
+}
+
+} // namespace
+
+void addMaterialCommand(CLI::App& app) {
+    CLI::App* material = app.add_subcommand("material", "SubEdit materials without the editor");
+    material->require_subcommand(1);
+    addBake(*material);
+    addInfo(*material);
+}
+
+} // namespace celadon

@@ -1,0 +1,228 @@
+#include "app/command_render.h"
+
+#include "app/frame_pattern.h"
+#include "app/log.h"
+#include "app/progress.h"
+#include "app/render_scene.h"
+#include "renderer/frame_renderer.h"
+#include "renderer/output/atomic_file.h"
+#include "renderer/output/image_io.h"
+#include "renderer/output/tone_map.h"
+#include "renderer/scene/camera.h"
+#include "subedit/errors.h"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <optional>
+
+namespace celadon::app {
+namespace {
+
+/// Outputs that cannot be written are refused before the work, not after.
+void checkOutputs(const RenderOptions& options) {
+    checkWritable(outputOfFrame(options, options.frames ? options.frames->first : 0));
+    if (options.stats) {
+        checkWritable(*options.stats);
+    }
+}
+
+void refuseUnbuilt(const RenderOptions& options) {
+    const auto refuse = [](const std::string& what) {
+        throw UsageError(what, "is not built yet", "leave it out");
+    };
+    if (options.solver == Solver::PathTraced) {
+        refuse("--solver path-traced");
+    }
+    if (options.backend == Backend::Tiled || options.backend == Backend::Cpu) {
+        refuse(std::string("--backend ") + backendName(options.backend));
+    }
+    if (options.scheme == Scheme::Hierarchical) {
+        refuse("--scheme hierarchical");
+    }
+    if (options.animation || options.timeSeconds) {
+        refuse("--animation");
+    }
+    if (!options.deformations.empty()) {
+        refuse("--deform");
+    }
+}
+
+FrameSettings frameSettings(const RenderOptions& options) {
+    FrameSettings settings;
+    settings.size = options.size;
+    switch (options.solver) {
+    case Solver::ImageReference:
+        settings.solver = SolverKind::ImageReference;
+        break;
+    case Solver::SurfaceReference:
+        settings.solver = SolverKind::SurfaceReference;
+        break;
+    case Solver::Splatting:
+    case Solver::PathTraced:
+        settings.solver = SolverKind::Splatting;
+        break;
+    }
+    SplattingSettings& splatting = settings.splatting;
+    if (options.quality == Quality::Draft) {
+        splatting.irradianceSize = 256;
+        splatting.alpha = 8.0;
+    } else if (options.quality == Quality::Final) {
+        splatting.irradianceSize = 1024;
+        settings.shadowSize = 2048;
+    }
+    splatting.irradianceSize = options.irradianceSize.value_or(splatting.irradianceSize);
+    if (options.levels) {
+        splatting.irradianceLevels = options.levels->irradiance;
+        splatting.splattingLevels = options.levels->splatting;
+    }
+    splatting.alpha = options.alpha.value_or(splatting.alpha);
+    splatting.epsilon = options.epsilon.value_or(splatting.epsilon);
+    splatting.discontinuity = options.discontinuity.value_or(splatting.discontinuity);
+    splatting.energy = options.energy.value_or(splatting.energy);
+    splatting.adaptive = options.adaptive;
+    splatting.multiresolution = options.multiresolution;
+    settings.exitFresnel = options.exitFresnel == ExitFresnel::Paper ? celadon::ExitFresnel::Paper
+                                                                     : celadon::ExitFresnel::Exact;
+    settings.pointSamples = options.pointSamples;
+    settings.specular = options.specular;
+    settings.coverageSamples = options.samples;
+    settings.layers = options.aov;
+    settings.statistics = options.stats.has_value();
+    return settings;
+}
+
+RenderStats statsHead(const RenderOptions& options, const FrameSettings& settings,
+                      const gl::Context& context) {
+    RenderStats stats;
+    stats.contextKind = gl::contextKindName(context.kind());
+    stats.contextRenderer = context.renderer();
+    stats.contextVersion = context.version();
+    stats.solver = solverName(options.solver);
+    stats.scheme = schemeName(options.scheme);
+    stats.backend = options.solver == Solver::Splatting ? "raster" : "cpu";
+    stats.width = settings.size.x;
+    stats.height = settings.size.y;
+    stats.irradianceSize = settings.splatting.irradianceSize;
+    stats.irradianceLevels = settings.splatting.adaptive ? settings.splatting.irradianceLevels : 1;
+    stats.splattingLevels = settings.splatting.multiresolution ? settings.splatting.splattingLevels : 1;
+    return stats;
+}
+
+void writePicture(const RenderOptions& options, const std::filesystem::path& file, FloatImage image) {
+    if (imageFormat(file) == ImageFormat::Exr) {
+        if (options.background) {
+            image = compositeOver(std::move(image), *options.background);
+        }
+        writeExr(file, image);
+        return;
+    }
+    DisplaySettings display;
+    display.exposureEv = static_cast<float>(options.exposureEv);
+    display.toneMap = options.toneMap;
+    display.background = options.background;
+    if (!display.background && !holdsAlpha(imageFormat(file))) {
+        display.background = glm::vec3(0.0f);
+    }
+    writeDisplayImage(file, toDisplay(image, display));
+}
+
+/// A black picture is never silent.
+void explainDarkness(const World& world, const Camera& camera, const RenderedFrame& frame,
+                     const RenderOptions& options) {
+    const CameraView view =
+        makeCameraView(camera, options.size.x, options.size.y, world.sceneSphere);
+    if (isOutsideView(view, world.sceneSphere)) {
+        log::warning("the object is outside the view: move --view-from or --view-at, or leave both out");
+        return;
+    }
+    if (!frame.seesScattering) {
+        log::warning("no pixel's center sees a scattering surface: it is hidden, or too small in the view");
+        return;
+    }
+    double sum = 0.0;
+    const std::size_t channels = frame.image.channelCount();
+    for (std::size_t i = 0; i < frame.image.pixels.size(); i += channels) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            sum += static_cast<double>(frame.image.pixels[i + c]);
+        }
+    }
+    if (sum <= 0.0) {
+        log::warning("no light reaches the visible surface: check the direction, position and color "
+                     "of the lights");
+    }
+}
+
+void warnAboutRadius(const World& world, const FrameStats& stats) {
+    const EffectiveRadiusRange& radius = stats.effectiveRadius;
+    log::info("effective scattering radius {:.3g} to {:.3g} mm ({:.3g} pixels on average) on an object "
+              "of {:.4g} mm",
+              radius.minMm, radius.maxMm, radius.meanPixels, 2.0 * world.scatteringSphere.radius);
+    if (radius.meanMm > 2.0 * world.scatteringSphere.radius) {
+        log::warning("the material scatters over {:.3g} mm, further than the object's {:.3g} mm: its "
+                     "size may be meant otherwise (--scale, --diameter)",
+                     radius.meanMm, 2.0 * world.scatteringSphere.radius);
+    } else if (radius.meanPixels < 0.5) {
+        log::warning("the material scatters over {:.3g} mm, {:.2g} of a pixel: the picture will look "
+                     "opaque (--scale, --diameter)",
+                     radius.meanMm, radius.meanPixels);
+    }
+}
+
+} // namespace
+
+Command addRenderCommand(CLI::App& root) {
+    const auto options = std::make_shared<RenderOptions>();
+    CLI::App* command =
+        root.add_subcommand("render", "Renders stills and sequences; no display is needed");
+    addRenderOptions(*command, *options);
+    return {command, [options] {
+                validateRenderOptions(*options);
+                checkOutputs(*options);
+                render(*options);
+            }};
+}
+
+void render(const RenderOptions& options) {
+    refuseUnbuilt(options);
+    const FrameRange frames = options.frames.value_or(FrameRange{});
+    const FrameSettings settings = frameSettings(options);
+    const bool worldChanges =
+        options.sequence || (options.material && hasFrameField(*options.material));
+
+    std::optional<World> world = readWorld(options, frames.first); // bad input is said before GL starts
+    const std::unique_ptr<gl::Context> context = gl::createContext(options.context);
+    log::info("context {}: {}", context->description(), context->renderer());
+    RenderStats stats = statsHead(options, settings, *context);
+    std::unique_ptr<FrameRenderer> renderer;
+    Progress progress("frames", static_cast<std::size_t>(frames.count()));
+    for (int number = frames.first; number <= frames.last; ++number) {
+        if (!renderer || worldChanges) {
+            renderer.reset();
+            if (number > frames.first) {
+                world = readWorld(options, number);
+            }
+            renderer = std::make_unique<FrameRenderer>(*context, *world, settings);
+        }
+        const Camera camera = cameraOf(options, *world);
+        const std::vector<Light> lights = lightsOf(options, *world, camera);
+        RenderedFrame frame = renderer->render(camera, lights);
+        frame.stats.frame = number;
+        explainDarkness(*world, camera, frame, options);
+        if (frame.seesScattering) {
+            warnAboutRadius(*world, frame.stats);
+        }
+        stats.millimetersPerUnit = world->millimetersPerUnit;
+        stats.frames.push_back(frame.stats);
+        writePicture(options, outputOfFrame(options, number), std::move(frame.image));
+        progress.update(static_cast<std::size_t>(number - frames.first + 1));
+    }
+    for (const std::string& message : context->takeDebugMessages()) {
+        log::warning("OpenGL: {}", message);
+    }
+    if (options.stats) {
+        writeFileAtomically(*options.stats, toJson(stats));
+    }
+}
+
+} // namespace celadon::app

@@ -1,0 +1,100 @@
+#pragma once
+
+#include "app/argument.h"
+#include "renderer/gl/context.h"
+#include "renderer/output/tone_map.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+/// The options of `celadon render` (DESIGN section 5), parsed and checked, each on its own and
+/// against the others. What is unset takes a default that depends on the scene, on the quality or
+/// on the scheme; the command decides.
+namespace celadon::app {
+
+enum class Solver { Splatting, ImageReference, SurfaceReference, PathTraced };
+enum class Scheme { Paper, Hierarchical };
+enum class Quality { Draft, Default, Final };
+enum class Backend { Auto, Raster, Tiled, Cpu };
+enum class ExitFresnel {
+    Exact, ///< c = 2 integral of F_t cos sin: what leaves is B
+    Paper  ///< c = 1 (Chen et al. 2012, eq. 7)
+};
+
+[[nodiscard]] const char* solverName(Solver solver);
+[[nodiscard]] const char* schemeName(Scheme scheme);
+[[nodiscard]] const char* qualityName(Quality quality);
+[[nodiscard]] const char* backendName(Backend backend);
+
+struct RenderOptions {
+    // Input and output
+    std::string model; ///< a file or builtin:NAME; empty where `sequence` is set
+    std::filesystem::path output;
+    std::optional<std::string> material; ///< a file, a shipped name, or a pattern of frames
+    std::optional<std::filesystem::path> stats;
+    bool aov = false;
+
+    // Picture
+    glm::ivec2 size{800, 600};
+    int samples = 4; ///< coverage samples a pixel
+    double exposureEv = 0.0;
+    ToneMap toneMap = ToneMap::Neutral;
+    std::optional<glm::vec3> background; ///< linear; unset: transparent
+    bool specular = true;
+
+    // View and size
+    std::optional<glm::dvec3> viewFrom, viewAt, viewUp; ///< model units
+    std::optional<double> fovYDegrees;
+    std::optional<double> millimetersPerUnit, diameterMm; ///< at most one of them
+
+    // Lights
+    std::vector<std::string> lights; ///< "directional:...", as given
+    std::optional<std::filesystem::path> environment;
+    int environmentLights = 64;
+
+    // Motion
+    std::optional<std::string> animation; ///< name or number
+    std::optional<double> timeSeconds;
+    std::optional<FrameRange> frames;
+    double framesPerSecond = 24.0;
+    std::optional<std::string> sequence;   ///< a checked pattern of frames
+    std::vector<std::string> deformations; ///< "twist:y:90", as given, in order
+
+    // Method
+    Solver solver = Solver::Splatting;
+    Scheme scheme = Scheme::Paper;
+    Quality quality = Quality::Default;
+    Backend backend = Backend::Auto;
+    gl::ContextKind context = gl::ContextKind::Auto;
+    std::optional<LevelCounts> levels;
+    std::optional<int> irradianceSize;
+    std::optional<double> alpha;
+    std::optional<double> epsilon;
+    std::optional<double> discontinuity; ///< z_0 in bounding sphere radii
+    std::optional<double> energy;
+    bool adaptive = true;
+    bool multiresolution = true;
+    ExitFresnel exitFresnel = ExitFresnel::Exact;
+    bool pointSamples = false;
+};
+
+/// Registers every option of the struct. Values are checked while the command line is parsed.
+void addRenderOptions(CLI::App& app, RenderOptions& options);
+
+/// What options must have together or must not have: call after parsing.
+/// @throws UsageError
+void validateRenderOptions(const RenderOptions& options);
+
+/// The picture of a frame: `output` itself where it has no field for the number.
+[[nodiscard]] std::filesystem::path outputOfFrame(const RenderOptions& options, int frame);
+
+} // namespace celadon::app

@@ -1,0 +1,111 @@
+#include "app/render_scene.h"
+
+#include "app/frame_pattern.h"
+#include "app/log.h"
+#include "renderer/scene/builtin.h"
+#include "renderer/scene/camera.h"
+#include "renderer/scene/environment.h"
+#include "renderer/scene/light.h"
+#include "renderer/scene/load_scene.h"
+#include "subedit/map/material_file.h"
+#include "subedit/map/shipped_materials.h"
+
+#include <map>
+
+namespace celadon::app {
+
+namespace {
+
+constexpr std::string_view kBuiltinPrefix = "builtin:";
+
+MaterialPointer readMaterialFile(const std::filesystem::path& file) {
+    std::vector<std::string> warnings;
+    auto map = std::make_shared<subedit::MaterialMap>(subedit::readMaterial(file, &warnings));
+    for (const std::string& warning : warnings) {
+        log::warning("{}", warning);
+    }
+    return map;
+}
+
+} // namespace
+
+Scene readModel(const std::string& model) {
+    if (model.starts_with(kBuiltinPrefix)) {
+        return makeBuiltin(std::string_view(model).substr(kBuiltinPrefix.size()));
+    }
+    return loadScene(model);
+}
+
+MaterialPointer readMaterialArgument(const std::string& nameOrPath) {
+    return readMaterialFile(subedit::findMaterial(nameOrPath));
+}
+
+World readWorld(const RenderOptions& options, int frame) {
+    const std::string model = options.sequence
+                                  ? FramePattern("--sequence", *options.sequence).name(frame)
+                                  : options.model;
+    Scene scene = readModel(model);
+    MaterialPointer override;
+    std::vector<MaterialPointer> named(scene.materials.size());
+    MaterialPointer fallback;
+    if (options.material) {
+        const std::string material =
+            hasFrameField(*options.material) ? FramePattern("--material", *options.material).name(frame)
+                                             : *options.material;
+        override = readMaterialArgument(material);
+    } else {
+        std::map<std::filesystem::path, MaterialPointer> read; // one map per file
+        for (std::size_t i = 0; i < named.size(); ++i) {
+            if (const auto& file = scene.materials[i].subedit) {
+                MaterialPointer& material = read[*file];
+                if (!material) {
+                    material = readMaterialFile(*file);
+                }
+                named[i] = material;
+            }
+        }
+        if (read.empty()) {
+            fallback = readMaterialArgument(subedit::kDefaultMaterial);
+        }
+    }
+    for (const std::string& warning : scene.warnings) {
+        log::warning("{}", warning);
+    }
+    World world = buildWorld(std::move(scene), override, named, fallback,
+                             {options.millimetersPerUnit, options.diameterMm});
+    for (const std::string& warning : world.warnings) {
+        log::warning("{}", warning);
+    }
+    return world;
+}
+
+Camera cameraOf(const RenderOptions& options, const World& world) {
+    const ViewRequest request{options.viewFrom, options.viewAt, options.viewUp, options.fovYDegrees};
+    return chooseCamera(world, request,
+                        static_cast<double>(options.size.x) / static_cast<double>(options.size.y));
+}
+
+std::vector<Light> lightsOf(const RenderOptions& options, const World& world, const Camera& camera) {
+    std::vector<Light> lights;
+    for (const std::string& text : options.lights) {
+        Light light = parseLight(text);
+        light.position *= world.millimetersPerUnit;
+        lights.push_back(light);
+    }
+    if (lights.empty()) {
+        lights = world.lights;
+    }
+    if (options.environment) {
+        const EnvironmentMap map = readEnvironment(*options.environment);
+        for (const std::string& warning : map.warnings) {
+            log::warning("{}", warning);
+        }
+        const std::vector<Light> more = environmentLights(map, options.environmentLights);
+        lights.insert(lights.end(), more.begin(), more.end());
+    } else if (lights.empty()) {
+        lights.push_back(defaultLight(camera));
+    }
+    return lights;
+}
+
+} // namespace celadon::app

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "renderer/gl/texture.h"
+#include "renderer/gl/timer.h"
+#include "renderer/output/frame_stats.h"
+#include "renderer/scene/camera.h"
+#include "renderer/scene/world.h"
+
+#include <span>
+
+/// The one seam of the renderer: lit geometry, view and material in, radiant exitance B of every
+/// visible pixel out (Chen et al. 2012, eq. 5). Splatting and each reference is one solver; buffers,
+/// shading and output are shared by all.
+namespace celadon {
+
+class GpuWorld;
+class GpuMaterials;
+class SplattingBuffer;
+
+struct SolveInput {
+    const World& world; ///< geometry on the CPU, for references that trace rays
+    const GpuWorld& gpuWorld;
+    const GpuMaterials& materials; ///< bound
+    SplattingBuffer& view;         ///< level 0 drawn; its frame block bound
+    const CameraView& camera;
+    std::span<const Light> lights; ///< positions in mm
+};
+
+class ExitanceSolver {
+public:
+    virtual ~ExitanceSolver() = default;
+
+    /// Levels that the splatting buffer must have.
+    [[nodiscard]] virtual int viewLevels() const = 0;
+
+    /// @return B in W/m^2 at pixel centers, RGBA32F, rows from the bottom; valid until the next call
+    /// @param timer receives the stages "irradianceBuffer", "splattingBuffer", "selection",
+    ///              "splatting N", "accumulation", as far as the solver has them
+    virtual const gl::Texture& solve(const SolveInput& input, gl::StageTimer& timer) = 0;
+
+    /// Samples, pairs and flux of the last solve. May read back: not within a timed frame.
+    virtual void report(FrameStats& stats) = 0;
+};
+
+} // namespace celadon

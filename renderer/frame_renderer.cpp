@@ -1,0 +1,132 @@
+#include "renderer/frame_renderer.h"
+
+#include "renderer/frame_layers.h"
+#include "renderer/gpu_world.h"
+#include "renderer/reference/reference_solvers.h"
+#include "renderer/shading/antialiasing.h"
+#include "renderer/shading/direct_light.h"
+#include "renderer/shading/shading_pass.h"
+#include "renderer/splatting/splatting_solver.h"
+
+#include <string>
+
+namespace celadon {
+
+namespace {
+
+/// Adds stage times by name to where `--stats` has them.
+StageMilliseconds sumStages(const std::vector<gl::StageTime>& stages, int splattingLevels) {
+    StageMilliseconds sum;
+    sum.deformation = 0.0;
+    sum.irradianceBuffer = sum.splattingBuffer = sum.selection = 0.0;
+    sum.accumulation = sum.shading = sum.total = 0.0;
+    sum.splatting.assign(static_cast<std::size_t>(splattingLevels), 0.0);
+    for (const gl::StageTime& stage : stages) {
+        sum.total += stage.timeMs;
+        if (stage.stage.starts_with("splatting ")) {
+            sum.splatting[static_cast<std::size_t>(std::stoi(stage.stage.substr(10)))] += stage.timeMs;
+        } else if (stage.stage == "irradianceBuffer") {
+            sum.irradianceBuffer += stage.timeMs;
+        } else if (stage.stage == "splattingBuffer") {
+            sum.splattingBuffer += stage.timeMs;
+        } else if (stage.stage == "selection") {
+            sum.selection += stage.timeMs;
+        } else if (stage.stage == "accumulation") {
+            sum.accumulation += stage.timeMs;
+        } else if (stage.stage == "shading") {
+            sum.shading += stage.timeMs;
+        }
+    }
+    return sum;
+}
+
+} // namespace
+
+struct FrameRenderer::Passes {
+    Passes(const gl::Context& glContext, const World& theWorld, const FrameSettings& theSettings)
+        : world(theWorld),
+          settings(theSettings),
+          timer(glContext),
+          gpuWorld(theWorld),
+          materials(theWorld.materials, theSettings.splatting.energy, theSettings.splatting.epsilon,
+                    theSettings.exitFresnel),
+          view(shaders, materials.count(), theSettings.size,
+               theSettings.solver == SolverKind::Splatting
+                   ? SplattingSolver::viewLevels(theSettings.splatting)
+                   : 1),
+          directLight(shaders, view, theSettings.shadowSize),
+          shading(shaders, materials.count(), view),
+          antialiasing(shaders, view) {
+        switch (settings.solver) {
+        case SolverKind::Splatting:
+            solver = std::make_unique<SplattingSolver>(shaders, materials, view, settings.splatting);
+            break;
+        case SolverKind::ImageReference:
+            solver = std::make_unique<ImageReferenceSolver>(
+                shaders, materials.count(), settings.splatting.irradianceSize, settings.pointSamples);
+            break;
+        case SolverKind::SurfaceReference:
+            solver = std::make_unique<SurfaceReferenceSolver>(world);
+            break;
+        }
+    }
+
+    void draw(const Camera& camera, std::span<const Light> lights);
+
+    const World& world;
+    FrameSettings settings;
+    gl::ShaderLibrary shaders;
+    gl::StageTimer timer;
+    GpuWorld gpuWorld;
+    GpuMaterials materials;
+    SplattingBuffer view;
+    std::unique_ptr<ExitanceSolver> solver;
+    DirectLight directLight;
+    ShadingPass shading;
+    Antialiasing antialiasing;
+    CameraView cameraView;
+    const gl::Texture* exitance = nullptr;
+};
+
+void FrameRenderer::Passes::draw(const Camera& camera, std::span<const Light> lights) {
+    cameraView = makeCameraView(camera, settings.size.x, settings.size.y, world.sceneSphere);
+    materials.bind();
+    {
+        const auto scope = timer.measure("splattingBuffer");
+        view.draw(gpuWorld, cameraView, 2.0 * world.scatteringSphere.radius);
+    }
+    exitance = &solver->solve({world, gpuWorld, materials, view, cameraView, lights}, timer);
+    const auto scope = timer.measure("shading");
+    directLight.shade(lights, world.sceneSphere, gpuWorld, view, settings.specular);
+    shading.shade(view, *exitance, directLight.radiance());
+    antialiasing.resolve(gpuWorld, camera, world.sceneSphere, view, shading.radiance(),
+                         settings.coverageSamples);
+}
+
+FrameRenderer::FrameRenderer(const gl::Context& context, const World& world,
+                             const FrameSettings& settings)
+    : mPasses(std::make_unique<Passes>(context, world, settings)) {}
+
+FrameRenderer::~FrameRenderer() = default;
+
+RenderedFrame FrameRenderer::render(const Camera& camera, std::span<const Light> lights) {
+    RenderedFrame frame;
+    auto* splatting = dynamic_cast<SplattingSolver*>(mPasses->solver.get());
+    if (mPasses->settings.statistics && splatting != nullptr) {
+        splatting->collectStatistics(true); // the warm-up frame counts, the second is timed
+        mPasses->draw(camera, lights);
+        splatting->report(frame.stats);
+        splatting->collectStatistics(false);
+        static_cast<void>(mPasses->timer.take());
+    }
+    mPasses->draw(camera, lights);
+    frame.stats.milliseconds = sumStages(mPasses->timer.take(), mPasses->view.levels());
+    if (splatting == nullptr) {
+        mPasses->solver->report(frame.stats);
+    }
+    readFrame(mPasses->view, *mPasses->exitance, mPasses->antialiasing.color(), mPasses->cameraView,
+              mPasses->materials, mPasses->settings.layers, frame);
+    return frame;
+}
+
+} // namespace celadon

@@ -1,0 +1,142 @@
+#include "renderer/gpu_materials.h"
+
+#include "renderer/gpu_blocks.h"
+#include "renderer/material_tables.h"
+#include "renderer/shading/fresnel.h"
+#include "subedit/errors.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace celadon {
+
+namespace {
+
+/// First texture units of the arrays in material.glsl.
+enum Unit : GLuint { kLogProfiles = 8, kRadii = 12, kKept = 16, kFarEnergy = 20 };
+
+constexpr float kLog2TMax = 12.0f;
+
+/// [height][width][knot][3] -> [knot][height][width][4]
+std::vector<float> knotsAsSlices(const subedit::MaterialMap& map) {
+    const std::size_t knots = static_cast<std::size_t>(map.knots());
+    const std::size_t texels = map.logProfile.size() / (knots * 3);
+    std::vector<float> slices(texels * knots * 4, 0.0f);
+    for (std::size_t t = 0; t < texels; ++t) {
+        for (std::size_t k = 0; k < knots; ++k) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                slices[(k * texels + t) * 4 + c] = map.logProfile[(t * knots + k) * 3 + c];
+            }
+        }
+    }
+    return slices;
+}
+
+void checkSize(const subedit::MaterialMap& map) {
+    GLint limit2d = 0;
+    GLint limit3d = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit2d);
+    glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &limit3d);
+    const int limit = std::min(limit2d, limit3d);
+    if (map.width > limit || map.height > limit) {
+        throw InputError("material '" + map.name + "'",
+                         std::to_string(map.width) + "x" + std::to_string(map.height) +
+                             " texels are more than this driver's " + std::to_string(limit),
+                         "resize it with 'celadon material convert'");
+    }
+}
+
+} // namespace
+
+GpuMaterials::GpuMaterials(std::span<const MaterialPointer> materials, double energy,
+                           double epsilon, ExitFresnel exitFresnel)
+    : mMapSampler("material map", gl::Filter::Linear, gl::Wrap::Repeat),
+      mTableSampler("range table", gl::Filter::Linear) {
+    if (materials.size() > static_cast<std::size_t>(kMaxMaterials)) {
+        throw InputError("the scene", std::to_string(materials.size()) +
+                                          " SubEdit materials are more than the " +
+                                          std::to_string(kMaxMaterials) + " that one scene can have",
+                         "let meshes share a material, as one map over their common atlas");
+    }
+    std::vector<blocks::MaterialEntry> entries;
+    std::vector<float> tables;
+    std::size_t tableSize = 0;
+    mKnotSpacingMm = 1e30f;
+    for (const MaterialPointer& material : materials) {
+        const subedit::MaterialMap& map = *material;
+        checkSize(map);
+        const MaterialTables made = makeMaterialTables(map, energy, epsilon);
+        const glm::ivec2 size(map.width, map.height);
+        const glm::ivec3 boxSize(size, map.knots());
+        gl::Texture logProfile =
+            gl::Texture::make3d("ln P of " + map.name, GL_RGBA16F, boxSize);
+        logProfile.upload(0, knotsAsSlices(map));
+        gl::Texture radii = gl::Texture::make2d("radii of " + map.name, GL_RGBA32F, size);
+        radii.upload(0, made.radii);
+        gl::Texture kept = gl::Texture::make2d("kept energy of " + map.name, GL_RGBA32F, size);
+        kept.upload(0, made.kept);
+        gl::Texture far = gl::Texture::make3d("far energy of " + map.name, GL_RGBA16F, boxSize);
+        far.upload(0, made.logFarEnergy);
+        mLogProfiles.push_back(std::move(logProfile));
+        mRadii.push_back(std::move(radii));
+        mKept.push_back(std::move(kept));
+        mFarEnergy.push_back(std::move(far));
+
+        const double c = exitFresnel == ExitFresnel::Exact
+                             ? diffuseTransmittance(static_cast<double>(map.eta))
+                             : 1.0;
+        blocks::MaterialEntry entry;
+        entry.profile = glm::vec4(map.maxRadiusMm, float(map.segments), map.eta, float(1.0 / c));
+        entry.look = glm::vec4(0.0f);
+        entries.push_back(entry);
+        tableSize = made.rangeTable.size();
+        tables.insert(tables.end(), made.rangeTable.begin(), made.rangeTable.end());
+        mMeanRadiusMm += made.meanRadiusMm / static_cast<float>(materials.size());
+        mKnotSpacingMm =
+            std::min(mKnotSpacingMm, map.maxRadiusMm / static_cast<float>(map.segments));
+        mLargestRadiusMm = std::max(mLargestRadiusMm, map.maxRadiusMm);
+    }
+    mFirstTable.assign(tables.begin(), tables.begin() + static_cast<std::ptrdiff_t>(tableSize));
+    mRangeTable =
+        gl::Texture::make2d("range table", GL_R32F,
+                            glm::ivec2(static_cast<int>(tableSize), static_cast<int>(materials.size())));
+    mRangeTable.upload(0, tables);
+    mBlock = gl::Buffer::of("materials", entries);
+    mHomogeneous = materials.size() == 1 && materials[0]->isHomogeneous();
+}
+
+void GpuMaterials::bind() const {
+    mBlock.bindUniform(blocks::kMaterials);
+    const auto bindAll = [&](const std::vector<gl::Texture>& textures, GLuint unit) {
+        for (const gl::Texture& texture : textures) {
+            texture.bind(unit);
+            mMapSampler.bind(unit);
+            ++unit;
+        }
+    };
+    bindAll(mLogProfiles, kLogProfiles);
+    bindAll(mRadii, kRadii);
+    bindAll(mKept, kKept);
+    bindAll(mFarEnergy, kFarEnergy);
+}
+
+void GpuMaterials::bindRangeTable(GLuint unit) const {
+    mRangeTable.bind(unit);
+    mTableSampler.bind(unit);
+}
+
+int GpuMaterials::nodeSegments() const {
+    return std::clamp(static_cast<int>(std::lround(mLargestRadiusMm / mKnotSpacingMm)), 1,
+                      subedit::kMaxSegments);
+}
+
+float GpuMaterials::minimalRadius(float pixelsPerRadius) const {
+    const float position = std::clamp(std::log2(std::max(pixelsPerRadius, 1.0f)) / kLog2TMax, 0.0f,
+                                      1.0f) *
+                           static_cast<float>(mFirstTable.size() - 1);
+    const std::size_t i = std::min(static_cast<std::size_t>(position), mFirstTable.size() - 2);
+    const float t = position - static_cast<float>(i);
+    return mFirstTable[i] + t * (mFirstTable[i + 1] - mFirstTable[i]);
+}
+
+} // namespace celadon

@@ -1,0 +1,52 @@
+#pragma once
+
+#include "renderer/gl/buffer.h"
+#include "renderer/gl/sampler.h"
+#include "renderer/gl/texture.h"
+#include "renderer/scene/world.h"
+
+#include <span>
+#include <vector>
+
+/// The scene's SubEdit materials on the GPU (shaders/include/material.glsl).
+namespace celadon {
+
+inline constexpr int kMaxMaterials = 4; ///< as material.glsl unrolls
+
+enum class ExitFresnel { Exact, Paper }; ///< c of DESIGN 1: so that what leaves is B, or 1
+
+class GpuMaterials {
+public:
+    /// @param energy, epsilon as makeMaterialTables
+    /// @throws InputError for more than kMaxMaterials, or a map beyond the driver's texture sizes
+    GpuMaterials(std::span<const MaterialPointer> materials, double energy, double epsilon,
+                 ExitFresnel exitFresnel);
+
+    /// Textures to units 8.., the uniform block to its binding point.
+    void bind() const;
+    void bindRangeTable(GLuint unit) const;
+
+    [[nodiscard]] int count() const { return static_cast<int>(mLogProfiles.size()); }
+    /// One material of one texel: profiles need no map.
+    [[nodiscard]] bool isHomogeneous() const { return mHomogeneous; }
+    [[nodiscard]] float meanRadiusMm() const { return mMeanRadiusMm; }
+    [[nodiscard]] float shortestKnotSpacingMm() const { return mKnotSpacingMm; }
+    [[nodiscard]] float largestRadiusMm() const { return mLargestRadiusMm; } ///< largest r_s
+    /// Knots that node profiles share: r_s the largest, spacing the finest, at most 256 segments.
+    [[nodiscard]] int nodeSegments() const;
+    /// Rbar(T) of the first material's table.
+    [[nodiscard]] float minimalRadius(float pixelsPerRadius) const;
+
+private:
+    gl::Buffer mBlock;
+    std::vector<gl::Texture> mLogProfiles, mRadii, mKept, mFarEnergy;
+    gl::Texture mRangeTable;
+    gl::Sampler mMapSampler, mTableSampler;
+    std::vector<float> mFirstTable;
+    bool mHomogeneous = false;
+    float mMeanRadiusMm = 0.0f;
+    float mKnotSpacingMm = 0.0f;
+    float mLargestRadiusMm = 0.0f;
+};
+
+} // namespace celadon

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "renderer/gl/buffer.h"
+#include "renderer/gl/program.h"
+#include "renderer/gl/sampler.h"
+#include "renderer/gl/texture.h"
+#include "renderer/gl/vertex_array.h"
+#include "renderer/scene/world.h"
+
+#include <memory>
+#include <vector>
+
+/// A world's geometry and looks on the GPU: the buffers that both the light and the camera passes
+/// draw from.
+namespace celadon {
+
+class GpuWorld {
+public:
+    /// @throws ContextError when the GPU's memory does not hold it
+    explicit GpuWorld(const World& world);
+
+    /// Draws every mesh with the given program (surface.vert; DESIGN 3.1, 3.3). Sets the uniforms
+    /// of include/surface.glsl, and with `looks` those of splatting_buffer.frag as well.
+    void draw(const gl::Program& program, bool looks) const;
+
+private:
+    struct LookTexture {
+        int image = -1;
+        gl::Sampler sampler;
+        int uvSet = -1; ///< -1: none
+        glm::mat3 transform{1.0f};
+    };
+    struct Look {
+        glm::vec4 baseColor;
+        glm::vec4 lobe; ///< metallic, roughness, index of refraction or 0, normal scale
+        glm::vec3 emission;
+        bool doubleSided;
+        LookTexture textures[3]; ///< base color, metallic-roughness, normal
+    };
+    struct GpuMesh {
+        gl::Buffer vertices;
+        gl::Buffer indices;
+        gl::VertexArray vertexArray;
+        int indexCount = 0;
+        int look = 0;
+        int scattering = -1;
+    };
+
+    void addLook(const World& world, const SurfaceMaterial& material);
+    void addMesh(const WorldMesh& mesh);
+    int addImage(const World& world, int image, bool srgb);
+    LookTexture addTexture(const World& world, const TextureReference& reference, bool srgb);
+
+    std::vector<GpuMesh> mMeshes;
+    std::vector<Look> mLooks;
+    std::vector<gl::Texture> mImages;
+    std::vector<std::pair<int, bool>> mImageKeys; ///< (index in World::images, sRGB) of each of mImages
+};
+
+} // namespace celadon

@@ -1,0 +1,118 @@
+#include "renderer/reference/reference_solvers.h"
+
+#include "renderer/reference/patch_gather.h"
+#include "renderer/splatting/splatting_buffer.h"
+
+namespace celadon {
+
+namespace {
+
+constexpr double kWattsPerUnit = 1e-6; ///< the irradiance buffer has W/m^2 times mm^2
+
+/// Lit texels of level 0.
+void appendPatches(const IrradianceBuffer& buffer, std::vector<Patch>& patches) {
+    const std::vector<float> positions = buffer.positions().readLevel(0);
+    const std::vector<float> normals = buffer.normals().readLevel(0);
+    const std::vector<float> fluxes = buffer.fluxes().readLevel(0);
+    const std::vector<float> surfaces = buffer.surfaces().readLevel(0);
+    const std::vector<float> covariances = buffer.covariances().readLevel(0);
+    const std::vector<float> extents = buffer.extents().readLevel(0);
+    for (std::size_t i = 0; i < positions.size(); i += 4) {
+        if (surfaces[i + 3] <= 0.0f) {
+            continue;
+        }
+        Patch patch;
+        patch.positionMm = {positions[i], positions[i + 1], positions[i + 2]};
+        patch.normal = {normals[i], normals[i + 1], normals[i + 2]};
+        patch.flux = glm::vec3(fluxes[i], fluxes[i + 1], fluxes[i + 2]) * float(kWattsPerUnit);
+        patch.covariance = {covariances[i],     covariances[i + 1], covariances[i + 2],
+                            covariances[i + 3], extents[i],         extents[i + 1]};
+        patch.uv = {surfaces[i], surfaces[i + 1]};
+        patch.material = static_cast<int>(surfaces[i + 2]);
+        patches.push_back(patch);
+    }
+}
+
+void addFlux(std::span<const Patch> patches, FrameStats& statistics) {
+    statistics.samples.candidates += patches.size();
+    statistics.samples.selected = {patches.size()};
+    for (const Patch& patch : patches) {
+        for (int c = 0; c < 3; ++c) {
+            statistics.flux.lit[static_cast<std::size_t>(c)] += static_cast<double>(patch.flux[c]);
+        }
+    }
+    statistics.flux.selected = statistics.flux.lit;
+}
+
+} // namespace
+
+std::vector<ExitPoint> readExitPoints(const SplattingBuffer& view) {
+    const std::vector<float> positions = view.positions().readLevel(0);
+    const std::vector<float> surfaces = view.surfaces().readLevel(0);
+    std::vector<ExitPoint> points(positions.size() / 4);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        points[i].positionMm = {positions[4 * i], positions[4 * i + 1], positions[4 * i + 2]};
+        points[i].uv = {surfaces[4 * i], surfaces[4 * i + 1]};
+        points[i].material =
+            positions[4 * i + 3] > 0.0f ? static_cast<int>(surfaces[4 * i + 2]) : -1;
+    }
+    return points;
+}
+
+const gl::Texture& ReferenceSolver::solve(const SolveInput& input, gl::StageTimer& timer) {
+    const auto scope = timer.measure("splatting 0");
+    mStatistics = {};
+    const std::vector<ExitPoint> exitPoints = readExitPoints(input.view);
+    const std::vector<glm::vec3> exitance = gather(input, exitPoints, mStatistics);
+    std::vector<float> texels(exitance.size() * 4, 0.0f);
+    for (std::size_t i = 0; i < exitance.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            texels[4 * i + static_cast<std::size_t>(c)] = exitance[i][c];
+        }
+    }
+    if (!mExitance) {
+        mExitance =
+            gl::Texture::make2d("reference exitance", GL_RGBA32F, input.view.paddedSize());
+    }
+    mExitance.upload(0, texels);
+    return mExitance;
+}
+
+void ReferenceSolver::report(FrameStats& stats) {
+    stats.samples = mStatistics.samples;
+    stats.flux = mStatistics.flux;
+}
+
+ImageReferenceSolver::ImageReferenceSolver(const gl::ShaderLibrary& shaders, int materialCount,
+                                           int irradianceSize, bool pointSamples)
+    : mIrradiance(shaders, materialCount, irradianceSize, 1), mPointSamples(pointSamples) {}
+
+std::vector<glm::vec3> ImageReferenceSolver::gather(const SolveInput& input,
+                                                    std::span<const ExitPoint> exitPoints,
+                                                    FrameStats& statistics) {
+    std::vector<Patch> patches;
+    for (const Light& light : input.lights) {
+        for (const LightView& lightView :
+             makeLightViews(light, input.world.scatteringSphere, input.world.sceneSphere,
+                            mIrradiance.size())) {
+            mIrradiance.draw(input.gpuWorld, lightView);
+            appendPatches(mIrradiance, patches);
+        }
+    }
+    addFlux(patches, statistics);
+    GatherOptions options;
+    options.pointSamples = mPointSamples;
+    GatherResult result = gatherExitance(exitPoints, patches, input.world.materials, options);
+    statistics.samples.pairs = result.pairs;
+    return std::move(result.exitance);
+}
+
+std::vector<glm::vec3> SurfaceReferenceSolver::gather(const SolveInput& input,
+                                                      std::span<const ExitPoint> exitPoints,
+                                                      FrameStats& statistics) {
+    SurfaceReferenceResult result = mReference.solve(exitPoints, input.lights);
+    statistics.samples.pairs = result.pairs;
+    return std::move(result.exitance);
+}
+
+} // namespace celadon

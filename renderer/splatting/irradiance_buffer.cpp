@@ -1,0 +1,89 @@
+#include "renderer/splatting/irradiance_buffer.h"
+
+#include "renderer/gl/debug.h"
+#include "renderer/gl/pass_state.h"
+
+namespace celadon {
+
+namespace {
+
+int padded(int size, int levels) {
+    const int unit = 1 << (levels - 1);
+    return (size + unit - 1) / unit * unit;
+}
+
+} // namespace
+
+void dispatchOver(glm::ivec2 size, int layers) {
+    glDispatchCompute(static_cast<GLuint>((size.x + 7) / 8), static_cast<GLuint>((size.y + 7) / 8),
+                      static_cast<GLuint>(layers));
+}
+
+IrradianceBuffer::IrradianceBuffer(const gl::ShaderLibrary& shaders, int materialCount, int size,
+                                   int levels)
+    : mSize(size),
+      mLevels(levels),
+      mPaddedSize(padded(size, levels)),
+      mLightBlock("light", sizeof(blocks::LightBlock), gl::BufferUse::Update),
+      mDraw("irradiance buffer", shaders, {"surface.vert", "irradiance_buffer.frag"},
+            {{"MATERIAL_COUNT", std::to_string(materialCount)}}),
+      mMip("irradiance mip", shaders, {"irradiance_mip.comp"}),
+      mRangeMip("depth range mip", shaders, {"depth_range_mip.comp"}) {
+    const glm::ivec2 extent(mPaddedSize);
+    const char* const names[kTargets] = {"positions",   "normals", "flux", "surface points",
+                                         "covariances", "extents", "kept energy"};
+    std::vector<gl::Attachment> colors;
+    for (int i = 0; i < kTargets; ++i) {
+        mTargets[i] = gl::Texture::make2d(std::string("irradiance buffer: ") + names[i], GL_RGBA32F,
+                                          extent, levels);
+        colors.push_back({&mTargets[i]});
+    }
+    mDepth = gl::Texture::make2d("irradiance buffer: depth", GL_DEPTH_COMPONENT32F, extent);
+    mDepthRanges =
+        gl::Texture::make2d("irradiance buffer: depth ranges", GL_RG32F, extent, levels);
+    mFramebuffer = gl::Framebuffer("irradiance buffer", colors, gl::Attachment{&mDepth});
+}
+
+void IrradianceBuffer::draw(const GpuWorld& world, const LightView& view) {
+    const gl::DebugGroup group("irradiance buffer");
+    mLightBlock.write(std::span(&view.block, 1));
+    mLightBlock.bindUniform(blocks::kLight);
+    gl::PassState state;
+    state.framebuffer = &mFramebuffer;
+    state.viewport = glm::ivec4(0, 0, mSize, mSize); // the padding stays background
+    state.depthTest = gl::DepthTest::Greater;
+    state.depthWrite = true;
+    state.depthClamp = true;
+    state.apply();
+    for (int i = 0; i < kTargets; ++i) {
+        mFramebuffer.clearColor(i, i == 3 ? glm::vec4(0.0f, 0.0f, -1.0f, 0.0f) : glm::vec4(0.0f));
+    }
+    mFramebuffer.clearDepth(0.0f);
+    world.draw(mDraw, false);
+}
+
+void IrradianceBuffer::buildMips() {
+    const gl::DebugGroup group("irradiance mips");
+    for (int level = 0; level < mLevels; ++level) {
+        glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+        mRangeMip.use();
+        mRangeMip.set(0, level - 1);
+        mTargets[0].bind(0);
+        mDepthRanges.bind(1);
+        mDepthRanges.bindImage(0, level, GL_WRITE_ONLY);
+        dispatchOver(mDepthRanges.size2d(level));
+        if (level == 0) {
+            continue;
+        }
+        mMip.use();
+        mMip.set(0, level - 1);
+        for (int i = 0; i < kTargets; ++i) {
+            mTargets[i].bind(static_cast<GLuint>(i));
+            mTargets[i].bindImage(static_cast<GLuint>(i), level, GL_WRITE_ONLY);
+        }
+        dispatchOver(mTargets[0].size2d(level));
+    }
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+} // namespace celadon

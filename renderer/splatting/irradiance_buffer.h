@@ -1,0 +1,53 @@
+#pragma once
+
+#include "renderer/gl/buffer.h"
+#include "renderer/gl/framebuffer.h"
+#include "renderer/gl/program.h"
+#include "renderer/gl/texture.h"
+#include "renderer/gpu_materials.h"
+#include "renderer/gpu_world.h"
+#include "renderer/splatting/light_view.h"
+
+/// Step 1, light side (Chen et al. 2012, section 4; DESIGN 3.1): what one light view sees, as a
+/// pyramid of patches. Level 0 has N x N texels; sizes are padded to a multiple of 2^(levels - 1),
+/// so that level k has at least ceil(N / 2^k) texels and missing ones are background.
+namespace celadon {
+
+class IrradianceBuffer {
+public:
+    /// @param size N >= 1; @param levels >= 1
+    IrradianceBuffer(const gl::ShaderLibrary& shaders, int materialCount, int size, int levels);
+
+    /// Draws level 0. The frame's and materials' uniform blocks are bound.
+    void draw(const GpuWorld& world, const LightView& view);
+    /// Levels 1 and up, and the depth ranges; reads the solve block.
+    void buildMips();
+
+    [[nodiscard]] int size() const { return mSize; }
+    [[nodiscard]] int paddedSize() const { return mPaddedSize; }
+    [[nodiscard]] int levels() const { return mLevels; }
+    /// Contents: the outputs of irradiance_buffer.frag.
+    [[nodiscard]] const gl::Texture& positions() const { return mTargets[0]; }
+    [[nodiscard]] const gl::Texture& normals() const { return mTargets[1]; }
+    [[nodiscard]] const gl::Texture& fluxes() const { return mTargets[2]; }
+    [[nodiscard]] const gl::Texture& surfaces() const { return mTargets[3]; }
+    [[nodiscard]] const gl::Texture& covariances() const { return mTargets[4]; }
+    [[nodiscard]] const gl::Texture& extents() const { return mTargets[5]; }
+    [[nodiscard]] const gl::Texture& kepts() const { return mTargets[6]; }
+    [[nodiscard]] const gl::Texture& depthRanges() const { return mDepthRanges; }
+
+private:
+    static constexpr int kTargets = 7;
+    int mSize, mLevels, mPaddedSize;
+    gl::Texture mTargets[kTargets]; ///< RGBA32F, all levels
+    gl::Texture mDepth;
+    gl::Texture mDepthRanges; ///< RG32F, all levels: least and greatest depth in mm
+    gl::Framebuffer mFramebuffer;
+    gl::Buffer mLightBlock;
+    gl::Program mDraw, mMip, mRangeMip;
+};
+
+/// Compute groups of 8 x 8 that cover `size`.
+void dispatchOver(glm::ivec2 size, int layers = 1);
+
+} // namespace celadon

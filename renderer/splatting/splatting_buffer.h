@@ -1,0 +1,59 @@
+#pragma once
+
+#include "renderer/gl/buffer.h"
+#include "renderer/gl/framebuffer.h"
+#include "renderer/gl/program.h"
+#include "renderer/gl/texture.h"
+#include "renderer/gpu_blocks.h"
+#include "renderer/gpu_materials.h"
+#include "renderer/gpu_world.h"
+#include "renderer/scene/camera.h"
+
+/// Step 1, camera side (Chen et al. 2012, section 4; DESIGN 3.3): the visible surface at frame
+/// resolution, with median mips. Rows run from the bottom. Sizes are padded as in IrradianceBuffer.
+namespace celadon {
+
+class SplattingBuffer {
+public:
+    /// @param size frame; @param levels >= 1
+    SplattingBuffer(const gl::ShaderLibrary& shaders, int materialCount, glm::ivec2 size,
+                    int levels);
+
+    /// Draws level 0 with all looks and binds the frame block.
+    /// @param R_w bounding sphere diameter in mm
+    void draw(const GpuWorld& world, const CameraView& view, double R_w);
+    /// Levels 1 and up, and the tiles' ranges. @param clusterDepthMm depths that count as one surface
+    void buildMips(double clusterDepthMm);
+
+    [[nodiscard]] glm::ivec2 size() const { return mSize; }
+    [[nodiscard]] glm::ivec2 paddedSize() const { return mPaddedSize; }
+    [[nodiscard]] int levels() const { return mLevels; }
+    /// Contents: the outputs of splatting_buffer.frag. Looks have level 0 only.
+    [[nodiscard]] const gl::Texture& positions() const { return mTargets[0]; }
+    [[nodiscard]] const gl::Texture& normals() const { return mTargets[1]; }
+    [[nodiscard]] const gl::Texture& surfaces() const { return mTargets[2]; }
+    [[nodiscard]] const gl::Texture& lobes() const { return mTargets[3]; }
+    [[nodiscard]] const gl::Texture& bases() const { return mTargets[4]; }
+    [[nodiscard]] const gl::Texture& emissions() const { return mTargets[5]; }
+    /// RG32F: least and greatest view depth of scattering surface in tiles of 8 x 8 pixels of level 0
+    /// and, in its mips, of 2 x 2 of those; empty tiles have least > greatest.
+    [[nodiscard]] const gl::Texture& tileRanges() const { return mTileRanges; }
+
+private:
+    static constexpr int kTargets = 6;
+    glm::ivec2 mSize;
+    int mLevels;
+    glm::ivec2 mPaddedSize;
+    gl::Texture mTargets[kTargets];
+    gl::Texture mDepth;
+    gl::Texture mTileRanges;
+    gl::Framebuffer mFramebuffer;
+    gl::Buffer mFrameBlock;
+    gl::Program mDraw, mMip, mTileRange;
+};
+
+/// The frame block of a view. Frame and padded size in pixels.
+[[nodiscard]] blocks::FrameBlock makeFrameBlock(const CameraView& view, glm::ivec2 size,
+                                                glm::ivec2 paddedSize, double R_w);
+
+} // namespace celadon

@@ -1,0 +1,36 @@
+// Layouts of the uniform blocks, read by GLSL and C++ alike (renderer/gpu_blocks.h): only mat4, vec4
+// and ivec4 members, so that std140 and C++ agree.
+
+// The camera and the frame. Lengths in mm, pixel rows from the bottom.
+struct FrameBlock {
+    mat4 view;           // world mm -> view, -z forward
+    mat4 viewProjection; // reverse z, clip range 0..1
+    vec4 eye;            // xyz; w: 1 perspective, 0 orthographic
+    vec4 forward;        // unit view direction; w: R_w, bounding sphere diameter
+    vec4 frameSize;      // W, H, padded W, padded H of level 0
+    vec4 projection;     // P00, P11 of the projection; pixel width in mm at depth z is z * third + fourth
+};
+
+// One light view: a frustum from which the irradiance buffer is drawn.
+struct LightBlock {
+    mat4 view;
+    mat4 viewProjection;
+    vec4 position;  // xyz mm; w: 1 for point and spot, 0 for directional
+    vec4 direction; // unit, along which light travels; w: edge of the square of texels, N
+    vec4 color;     // irradiance [W/m^2] or radiant intensity [W/sr]; w: 1 spot
+    vec4 cone;      // cos inner, cos outer; texel width in mm at depth z is z * third + fourth
+};
+
+// Scattering materials: one element each.
+struct MaterialEntry {
+    vec4 profile; // r_s [mm], segments n, eta, 1 / c of the exit Fresnel term (DESIGN 1)
+    vec4 look;    // has roughness map, has specular map, row of the range table, 0
+};
+
+// Settings of one solve (DESIGN 3).
+struct SolveBlock {
+    vec4 selection; // alpha, z_0 [mm], R_w [mm], lambda_z / R_w
+    vec4 node;      // node profiles: r_s [mm], segments n; theta_s, beta (hierarchical)
+    vec4 rings;     // levels of the splatting buffer, levels of the irradiance buffer, theta_p, b (hierarchical)
+    vec4 energy;    // 1: give back what the cut leaves out; 1: adaptive; 1: multiresolution; R_cut is r_s
+};

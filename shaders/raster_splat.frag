@@ -1,0 +1,99 @@
+// One (sample, pixel) pair: B^k(x_o) += mean over the sample's patch of sqrt(P_xo P_xi) times its flux
+// (Chen et al. 2012, eq. 12). The patch has covariance C; along the offset to the pixel it blurs the kernel
+// by q, across it lengthens the distance to d' (DESIGN 3.1: a sample is a patch, not a point). The mean
+// over the disc of radius sqrt(2 q) about d' is taken at three distances, or at 24 points where the
+// disc is wide for the profile; at one where it is narrow. Alpha counts the pairs.
+#include "include/material.glsl"
+#include "include/solve.glsl"
+
+layout(location = 0) uniform ivec4 levels; // irradiance level, texels in a row of it, splatting level, 0
+
+layout(binding = 24) uniform sampler2D positions;
+layout(binding = 25) uniform sampler2D surfaces;
+layout(binding = 7) uniform sampler2DArray nodeProfiles;
+
+flat in vec4 center;
+flat in vec4 flux;
+flat in vec3 diagonal;
+flat in vec3 offDiagonal;
+flat in vec2 ring;
+flat in vec3 nodeTexture;
+
+layout(location = 0) out vec4 exitance;
+
+// ln P_xi(r) of the sample.
+vec3 logSampleProfile(float r) {
+#if defined(HOMOGENEOUS)
+    return logProfile(0, vec2(0.5), r);
+#elif defined(LEAF)
+    return logProfile(int(nodeTexture.z), nodeTexture.xy, r);
+#else
+    float x = min(r / solve.node.x, 1.0) * solve.node.y;
+    float k = min(floor(x), solve.node.y - 1.0);
+    vec3 a = texelFetch(nodeProfiles, ivec3(nodeTexture.xy, k), levels.x - 1).rgb;
+    vec3 b = texelFetch(nodeProfiles, ivec3(nodeTexture.xy, k + 1.0), levels.x - 1).rgb;
+    return mix(a, b, x - k);
+#endif
+}
+
+float sampleRange() {
+#if defined(LEAF) || defined(HOMOGENEOUS)
+    return materials[int(nodeTexture.z)].profile.x;
+#else
+    return solve.node.x;
+#endif
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec4 position = texelFetch(positions, pixel, levels.z);
+    vec3 offset = position.xyz - center.xyz;
+    float d2 = dot(offset, offset);
+    float d = sqrt(d2);
+    int taps = position.w > 0.0 && d >= ring.x && d < ring.y ? 1 : 0;
+
+    // Nothing below is done where the ring is missed: loops, unlike branches, are skipped by every driver.
+    vec3 sum = vec3(0.0);
+    float counted = 0.0;
+    for (int once = 0; once < taps; ++once) {
+        vec4 surfacePoint = texelFetch(surfaces, pixel, levels.z);
+        int m = int(surfacePoint.z);
+        if (m < 0) {
+            break;
+        }
+        float variance = center.w;
+        float along = dot(offset * offset, diagonal) + 2.0 * dot(offset.xxy * offset.yzz, offDiagonal);
+        float q = d2 > 1e-8 ? min(2.0 * along / d2, 1.3 * variance) : variance;
+        float closest2 = max(d2 + variance - q, 0.0);
+        float closest = sqrt(closest2);
+        float blur = sqrt(q);
+        int count = blur < 0.1 * closest ? 1 : (closest < 3.0 * blur && flux.w * blur > 1.0 ? 24 : 3);
+        float range = min(materials[m].profile.x, sampleRange());
+        vec3 kernel = vec3(0.0);
+        for (int i = 0; i < count; ++i) {
+            float r2;
+            if (count == 24) {
+                float rho2 = 2.0 * q * (float(i % 4) + 0.5) / 4.0;
+                float phi = 3.14159265 * (float(i / 4) + 0.5) / 6.0;
+                r2 = closest2 + rho2 + 2.0 * sqrt(rho2) * closest * cos(phi);
+            } else if (count == 3) {
+                r2 = closest2 + 0.98 * q + float(i - 1) * 1.7320508 * blur * closest;
+            } else {
+                r2 = closest2 + q;
+            }
+            float r = sqrt(max(r2, 0.0));
+#ifdef HOMOGENEOUS
+            vec3 value = exp(logSampleProfile(r));
+#else
+            vec3 value = exp(0.5 * (logSampleProfile(r) + logProfile(m, surfacePoint.xy, r)));
+#endif
+            kernel += r <= range ? value : vec3(0.0);
+        }
+        sum = kernel * flux.rgb / float(count);
+        counted = 1.0;
+    }
+    if (counted == 0.0) {
+        discard;
+    }
+    exitance = vec4(sum, counted);
+}

@@ -1,0 +1,38 @@
+// A splat's rectangle, two triangles (Chen et al. 2012, "hardware implementation").
+layout(points) in;
+layout(triangle_strip, max_vertices = 4) out;
+
+in Splat {
+    flat vec4 rectangle;
+    flat vec4 center;
+    flat vec4 flux;
+    flat vec3 diagonal;
+    flat vec3 offDiagonal;
+    flat vec2 ring;
+    flat vec3 texture_;
+} splat[];
+
+flat out vec4 center;
+flat out vec4 flux;
+flat out vec3 diagonal;
+flat out vec3 offDiagonal;
+flat out vec2 ring;
+flat out vec3 nodeTexture;
+
+void main() {
+    vec4 r = splat[0].rectangle;
+    if (r.z <= r.x || r.w <= r.y) {
+        return;
+    }
+    for (int i = 0; i < 4; ++i) {
+        gl_Position = vec4((i & 1) == 0 ? r.x : r.z, (i & 2) == 0 ? r.y : r.w, 0.0, 1.0);
+        center = splat[0].center;
+        flux = splat[0].flux;
+        diagonal = splat[0].diagonal;
+        offDiagonal = splat[0].offDiagonal;
+        ring = splat[0].ring;
+        nodeTexture = splat[0].texture_;
+        EmitVertex();
+    }
+    EndPrimitive();
+}

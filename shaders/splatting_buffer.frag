@@ -1,0 +1,79 @@
+// Splatting buffer, level 0 (Chen et al. 2012, section 4): the object from the camera, and the looks
+// that shading needs later. With COVERAGE only what antialiasing compares.
+#include "include/frame.glsl"
+#include "include/material.glsl"
+#include "include/surface.glsl"
+
+layout(location = 0) out vec4 outPosition; // xyz mm, view depth in mm (0: background)
+layout(location = 1) out vec4 outNormal;   // xyz towards the viewer, mesh id + 1
+#ifndef COVERAGE
+layout(location = 2) out vec4 outSurface;  // u, v, material (-1: opaque), R_P in mm
+layout(location = 3) out vec4 outLobe;     // normal of the specular lobe, roughness
+layout(location = 4) out vec4 outBase;     // base color (linear), metallic
+layout(location = 5) out vec4 outEmission; // emitted radiance, index of refraction of the lobe
+
+layout(location = 1) uniform vec4 baseColor;
+layout(location = 2) uniform vec4 lobe; // metallic, roughness, index of refraction or 0, normal scale
+layout(location = 3) uniform vec3 emission;
+layout(location = 4) uniform ivec4 textureSets; // uv set of base, metallic-roughness, normal: -1 none
+layout(location = 5) uniform mat3 textureTransforms[3];
+
+layout(binding = 0) uniform sampler2D baseColorTexture; // sRGB
+layout(binding = 1) uniform sampler2D metallicRoughnessTexture;
+layout(binding = 2) uniform sampler2D normalTexture;
+
+vec2 textureCoordinate(int index) {
+    vec2 uv = textureSets[index] == 1 ? surface.uv1 : surface.uv;
+    return (textureTransforms[index] * vec3(uv, 1.0)).xy;
+}
+
+// Tangent frame from the derivatives of position and texture coordinate.
+vec3 mappedNormal(vec3 n) {
+    vec2 uv = textureCoordinate(2);
+    vec3 px = dFdx(surface.position);
+    vec3 py = dFdy(surface.position);
+    vec2 tx = dFdx(uv);
+    vec2 ty = dFdy(uv);
+    float determinant = tx.x * ty.y - tx.y * ty.x;
+    if (abs(determinant) < 1e-20) {
+        return n;
+    }
+    vec3 t = (px * ty.y - py * tx.y) * sign(determinant);
+    vec3 b = (py * tx.x - px * ty.x) * sign(determinant);
+    t -= n * dot(n, t);
+    b -= n * dot(n, b);
+    if (dot(t, t) < 1e-20 || dot(b, b) < 1e-20) {
+        return n;
+    }
+    vec3 m = texture(normalTexture, uv).xyz * 2.0 - 1.0;
+    m.xy *= lobe.w;
+    m.y = -m.y; // v runs down: the map's green points up, against v
+    vec3 mapped = normalize(t) * m.x + normalize(b) * m.y + n * m.z;
+    return dot(mapped, mapped) > 1e-12 ? normalize(mapped) : n;
+}
+#endif
+
+void main() {
+    // Both sides are seen: a back face shows the normal that faces the viewer.
+    vec3 n = facingNormal(!gl_FrontFacing);
+    outPosition = vec4(surface.position, -(frame.view * vec4(surface.position, 1.0)).z);
+    outNormal = vec4(n, float(meshInfo.z));
+#ifndef COVERAGE
+    int m = meshInfo.x;
+    outSurface = vec4(surface.uv, float(m), m >= 0 ? materialRadii(m, surface.uv).x : 0.0);
+    vec3 specularNormal = textureSets.z >= 0 ? mappedNormal(n) : n;
+    vec2 metallicRoughness = lobe.xy;
+    if (textureSets.y >= 0) {
+        vec4 texel = texture(metallicRoughnessTexture, textureCoordinate(1));
+        metallicRoughness *= texel.bg;
+    }
+    vec4 base = baseColor;
+    if (textureSets.x >= 0) {
+        base *= texture(baseColorTexture, textureCoordinate(0));
+    }
+    float ior = lobe.z > 0.0 ? lobe.z : (m >= 0 ? materials[max(m, 0)].profile.z : 1.5);
+    outLobe = vec4(specularNormal, metallicRoughness.y);
+    outBase = vec4(base.rgb, metallicRoughness.x);
+    outEmission = vec4(emission, ior);
+#endif
+}

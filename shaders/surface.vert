@@ -1,0 +1,27 @@
+// The deformed surface, from the camera (CAMERA) or from a light.
+#include "include/frame.glsl"
+#include "include/light.glsl"
+
+layout(location = 0) in vec3 inPosition; // mm
+layout(location = 1) in vec3 inNormal;
+layout(location = 2) in vec2 inUv;
+layout(location = 3) in vec2 inUv1;
+
+out SurfacePoint {
+    vec3 position;
+    vec3 normal;
+    vec2 uv;
+    vec2 uv1;
+} surface;
+
+void main() {
+    surface.position = inPosition;
+    surface.normal = inNormal;
+    surface.uv = inUv;
+    surface.uv1 = inUv1;
+#ifdef CAMERA
+    gl_Position = frame.viewProjection * vec4(inPosition, 1.0);
+#else
+    gl_Position = light.viewProjection * vec4(inPosition, 1.0);
+#endif
+}

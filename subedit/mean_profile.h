@@ -1,0 +1,41 @@
+#pragma once
+
+#include "subedit/map/material_map.h"
+
+#include <span>
+#include <vector>
+
+/// The mean profile of a material (Chen et al. 2012, eqs. 15 and 16): what its profiles look like
+/// on average when each is measured in units of its own effective radius. The table of minimal
+/// effective rendering radii (range_table.h) is computed from it.
+namespace celadon::subedit {
+
+inline constexpr int kMeanProfileIntervals = 256;
+
+/// P over r in [0, 1], linear between kMeanProfileIntervals + 1 equally spaced samples, with
+/// integral of P r dr over [0, 1] = 1.
+class MeanProfile {
+public:
+    /// Takes samples of any scale and normalizes them.
+    explicit MeanProfile(std::vector<double> samples);
+
+    /// @param r in [0, 1]; clamped
+    [[nodiscard]] double value(double r) const;
+    /// Integral of P r dr over [r, 1].
+    [[nodiscard]] double energyBeyond(double r) const;
+    [[nodiscard]] std::span<const double> samples() const { return mSamples; }
+
+private:
+    std::vector<double> mSamples;
+    std::vector<double> mBeyond; ///< energyBeyond at the samples
+};
+
+/// Mean over all texels of P'(r) = C P(r R_P), C such that the integral of P' r dr over [0, 1]
+/// is 1. The three channels of a texel are summed before C is applied: they share one R_P (the
+/// largest), and so count by the energy that each brings. Texels count alike, whatever their
+/// albedo.
+/// @param effectiveRadiusMm R_P of each texel, as from effectiveRadiusMap()
+[[nodiscard]] MeanProfile meanProfile(const MaterialMap& map,
+                                      std::span<const float> effectiveRadiusMm);
+
+} // namespace celadon::subedit

@@ -1,0 +1,80 @@
+#include "subedit/range_table.h"
+
+#include "subedit/assert.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace celadon::subedit {
+
+double samplingError(const MeanProfile& profile, double T, double rPrime) {
+    double sum = 0.0;
+    // Counted from r' in steps, with slack for 1 - r' being a whole number of steps but for a bit.
+    const auto steps = static_cast<int>(std::floor((1.0 - rPrime) * T + 1e-9));
+    for (int m = 0; m <= steps; ++m) {
+        const double r = rPrime + m / T;
+        sum += profile.value(r) * r;
+    }
+    return std::abs(sum / T - profile.energyBeyond(rPrime));
+}
+
+double minimalRadius(const MeanProfile& profile, double T, double epsilon) {
+    if (T <= 1.0) {
+        return 1.0;
+    }
+    // All r' that are a whole number of steps and a phase below 1 share their terms: one pass down
+    // from 1 per phase, each pass only as far down as the others have left in question. The phase
+    // just short of a step is the limit in which the term at r = 1 has just dropped out.
+    const int phases = std::clamp(static_cast<int>(std::ceil(2048.0 / T)), 16, 256);
+    const double step = 1.0 / T;
+    double radius = 0.0; // every r' above it that was looked at is good
+    for (int i = 0; i <= phases; ++i) {
+        const double phase = i < phases ? step * i / phases : step * (1.0 - 1e-6);
+        double sum = profile.value(1.0 - phase) * (1.0 - phase);
+        for (int m = 1;; ++m) {
+            const double rPrime = 1.0 - phase - m * step;
+            if (rPrime < radius || rPrime < 0.0) {
+                break;
+            }
+            sum += profile.value(rPrime) * rPrime;
+            if (std::abs(sum * step - profile.energyBeyond(rPrime)) >= epsilon) {
+                // The next r' looked at above this one is up to a phase away: stay on its safe
+                // side.
+                radius = i == 0 && m == 1 ? 1.0 : rPrime + step / phases;
+                break;
+            }
+        }
+        if (radius >= 1.0) {
+            return 1.0;
+        }
+    }
+    return radius;
+}
+
+RangeTable RangeTable::build(const MeanProfile& profile, double epsilon) {
+    CELADON_ASSERT(epsilon > 0.0);
+    RangeTable table;
+    tbb::parallel_for(0, kRangeTableEntries, [&](int i) {
+        const double T = std::exp2(static_cast<double>(i) / kRangeTableEntriesPerOctave);
+        table.mValues[static_cast<std::size_t>(i)] =
+            static_cast<float>(std::clamp(subedit::minimalRadius(profile, T, epsilon), 0.0, 1.0));
+    });
+    return table;
+}
+
+float RangeTable::minimalRadius(float pixelsPerRadius) const {
+    if (!(pixelsPerRadius > 1.0f)) {
+        return 1.0f;
+    }
+    const float position = std::min(std::log2(pixelsPerRadius) * kRangeTableEntriesPerOctave,
+                                    static_cast<float>(kRangeTableEntries - 1));
+    const int i = std::min(static_cast<int>(position), kRangeTableEntries - 2);
+    const float t = position - static_cast<float>(i);
+    const float a = mValues[static_cast<std::size_t>(i)];
+    const float b = mValues[static_cast<std::size_t>(i) + 1];
+    return a + (b - a) * t;
+}
+
+} // namespace celadon::subedit

@@ -1,0 +1,102 @@
+#include "tests/support/program.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace celadon {
+namespace {
+
+using test::ProgramResult;
+using test::runInProcess;
+using test::runProgram;
+using test::TemporaryFolder;
+using testing::HasSubstr;
+
+TEST(CommandLine, ShowsHelpOnStdout) {
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"--help"}, {"render", "--help"}, {"compare", "-h"}}) {
+        const ProgramResult result = runInProcess(words);
+        EXPECT_EQ(result.exitCode, 0);
+        EXPECT_THAT(result.out, HasSubstr("--help"));
+        EXPECT_EQ(result.err, "");
+    }
+    EXPECT_THAT(runInProcess({"render", "--help"}).out, HasSubstr("--view-from"));
+}
+
+TEST(CommandLine, ShowsTheVersion) {
+    const ProgramResult result = runProgram({"--version"});
+    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_THAT(result.out, testing::StartsWith("celadon "));
+}
+
+TEST(CommandLine, WantsACommand) {
+    const ProgramResult result = runProgram({});
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_EQ(result.out, "");
+    EXPECT_THAT(result.err, HasSubstr("render"));
+}
+
+TEST(CommandLine, NamesWhatItDoesNotKnow) {
+    struct Case {
+        std::vector<std::string> words;
+        const char* says;
+    };
+    const std::vector<Case> cases = {
+        {{"rendr"}, "did you mean 'render'?"},
+        {{"render", "m.obj", "--alhpa", "3"}, "'--alhpa': unknown option; did you mean '--alpha'?"},
+        {{"render", "m.obj", "--bogus=1"}, "'--bogus': unknown option"},
+        {{"render", "m.obj", "-q"}, "'-q'"},
+        {{"--bogus"}, "see 'celadon --help'"},
+        {{"render", "m.obj", "-o", "a.png", "more"}, "'more': unexpected argument"},
+        {{"render", "m.obj", "-o"}, "--output: its value is missing"},
+        {{"render", "m.obj", "-o", "--aov"}, "a value is missing"},
+        {{"render", "m.obj", "-o", "a.png", "--no-adaptive=1"}, "takes no value"},
+        {{"compare", "a.exr"}, "two pictures"},
+        {{"compare", "a", "b", "--metric", "rsme"}, "'rsme'"},
+        {{"compare", "a", "b", "--fail-above", "rmse"}, "METRIC=VALUE"},
+        {{"info"}, "no file"},
+        {{"info", "--system", "a.obj"}, "--system"},
+    };
+    for (const Case& c : cases) {
+        const ProgramResult result = runInProcess(c.words);
+        EXPECT_EQ(result.exitCode, 2) << result.err;
+        EXPECT_THAT(result.err, HasSubstr(c.says));
+        EXPECT_EQ(result.errorLines(), 1) << result.err;
+        EXPECT_EQ(result.out, "");
+    }
+}
+
+TEST(CommandLine, EndsWithOneLineAndACode) {
+    const ProgramResult usage = runProgram({"render", "--bogus"});
+    EXPECT_EQ(usage.exitCode, 2);
+    EXPECT_EQ(usage.err, "celadon: '--bogus': unknown option; see 'celadon render --help'\n");
+    const ProgramResult input = runProgram({"compare", "no such.exr", "b.exr"});
+    EXPECT_EQ(input.exitCode, 3);
+    EXPECT_EQ(input.errorLines(), 1);
+}
+
+TEST(CommandLine, RefusesOutputsBeforeTheWork) {
+    const TemporaryFolder folder;
+    const ProgramResult result =
+        runProgram({"render", "m.obj", "-o", (folder / "missing/a.exr").string()});
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_THAT(result.err, HasSubstr("does not exist"));
+    EXPECT_EQ(result.errorLines(), 1);
+}
+
+TEST(CommandLine, FailsWhenStdoutCannotBeWritten) {
+    const ProgramResult result = runProgram({"--help"}, "/dev/full");
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_THAT(result.err, HasSubstr("standard output"));
+}
+
+TEST(CommandLine, ListsTheContextsOfTheSystem) {
+    const ProgramResult result = runProgram({"info", "--system"});
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("egl"));
+    EXPECT_THAT(result.out, HasSubstr("osmesa"));
+    EXPECT_THAT(result.out, HasSubstr("glfw"));
+}
+
+} // namespace
+} // namespace celadon
