@@ -33,7 +33,7 @@ TEST_P(AtlasModels, FewChartsLittleDistortionGoodCoverage) {
 #endif
     const Mesh mesh = readTestModel(std::string(folder) + "/mesh/" + GetParam().file);
     const auto start = std::chrono::steady_clock::now();
-    const Atlas atlas = expectGoodAtlas(mesh);
+    const Atlas atlas = expectGoodAtlas(mesh, AtlasSettings{});
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     const AtlasReport& report = atlas.report;
     RecordProperty("charts", report.charts);
