@@ -3,12 +3,14 @@
 #include "renderer/exitance_solver.h"
 #include "renderer/splatting/accumulation.h"
 #include "renderer/splatting/irradiance_buffer.h"
+#include "renderer/splatting/node_balls.h"
 #include "renderer/splatting/node_profiles.h"
 #include "renderer/splatting/raster_splat.h"
 #include "renderer/splatting/sample_selection.h"
 #include "renderer/splatting/splatting_settings.h"
 
 #include <optional>
+#include <vector>
 
 /// Multiresolution splatting (Chen et al. 2012): the four steps, four calls.
 namespace celadon {
@@ -34,11 +36,13 @@ public:
 
 private:
     void writeSolveBlock(const SolveInput& input);
+    [[nodiscard]] std::vector<double> ringStarts(const SolveInput& input) const;
     void gatherStatistics();
 
     SplattingSettings mSettings;
     IrradianceBuffer mIrradiance;
     std::optional<NodeProfiles> mProfiles;
+    std::optional<NodeBalls> mBalls; ///< hierarchical
     SampleSelection mSelection;
     RasterSplat mSplat;
     Accumulation mAccumulation;
