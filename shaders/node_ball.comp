@@ -15,6 +15,8 @@ layout(binding = 3) uniform sampler2D extents;
 layout(binding = 4) uniform sampler2D kepts;
 layout(binding = 5) uniform sampler2D balls; // radius in mm
 
+const float kNeverUsed = 1e30;
+
 layout(r32f, binding = 0) uniform writeonly image2D result;
 
 // Largest eigenvalue of a symmetric 3x3 matrix, in closed form (Smith 1961).
@@ -45,18 +47,27 @@ void main() {
     vec2 tail = texelFetch(extents, node, level).xy;
     float lambda = largestEigenvalue(vec3(covariance.x, covariance.w, tail.y), vec3(covariance.y, covariance.z, tail.x));
     float spread = sqrt(12.0 * max(lambda, 0.0));
-    float radius = 0.0;
-    if (spread >= solve.node.w * texelFetch(kepts, node, level).w) {
-        vec3 center = texelFetch(positions, node, level).xyz;
-        radius = spread / solve.node.z;
-        for (int i = 0; i < 4; ++i) {
-            ivec2 child = node * 2 + ivec2(i & 1, i >> 1);
-            float childRadius = texelFetch(balls, child, level - 1).r;
-            if (childRadius > 0.0) {
-                float offset = distance(texelFetch(positions, child, level - 1).xyz, center);
-                radius = max(radius, (1.0 + solve.rings.w) * childRadius + offset);
-            }
+
+    // A light child far off moves the mean and the spread but little: its offset counts like
+    // that of the corner children of a uniform square, 1 / sqrt(8) of the side.
+    vec3 center = texelFetch(positions, node, level).xyz;
+    float nested = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 child = node * 2 + ivec2(i & 1, i >> 1);
+        vec3 childFlux = texelFetch(fluxes, child, level - 1).rgb;
+        if (childFlux.r + childFlux.g + childFlux.b <= 0.0) {
+            continue;
+        }
+        float offset = distance(texelFetch(positions, child, level - 1).xyz, center);
+        spread = max(spread, sqrt(8.0) * offset);
+        float childRadius = texelFetch(balls, child, level - 1).r;
+        if (childRadius > 0.0) {
+            nested = max(nested, (1.0 + solve.rings.w) * childRadius + offset);
         }
     }
-    imageStore(result, node, vec4(radius));
+    bool fine = nested == 0.0 && spread < solve.node.w * texelFetch(kepts, node, level).w;
+    float radius = fine ? 0.0 : max(spread / solve.node.z, nested);
+    // A node that would come into use beyond r_s is never used, at any distance from its mean: its
+    // children may well be within r_s where the mean is not.
+    imageStore(result, node, vec4(radius < solve.node.x ? radius : kNeverUsed));
 }

@@ -82,7 +82,8 @@ bool meetsSurface(vec4 pixels, float nearest, float farthest) {
     int mip = clamp(int(ceil(log2(max(extent / 16.0, 1.0)))), 0, textureQueryLevels(tileRanges) - 1);
     float tileSize = float(8 << mip);
     ivec2 low = ivec2(pixels.xy / tileSize);
-    ivec2 high = min(ivec2(pixels.zw / tileSize), textureSize(tileRanges, mip) - 1);
+    // Not textureSize(tileRanges, mip): some drivers take one lane's level for all lanes.
+    ivec2 high = min(ivec2(pixels.zw / tileSize), (textureSize(tileRanges, 0) >> mip) - 1);
     for (int y = low.y; y <= high.y; ++y) {
         for (int x = low.x; x <= high.x; ++x) {
             vec2 range = texelFetch(tileRanges, ivec2(x, y), mip).xy;
