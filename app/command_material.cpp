@@ -1,5 +1,6 @@
 #include "app/command_material.h"
 
+#include "app/describe_material.h"
 #include "app/rgb_argument.h"
 #include "subedit/errors.h"
 #include "subedit/map/image_map.h"
@@ -7,18 +8,15 @@
 #include "subedit/map/material_file.h"
 #include "subedit/map/shipped_materials.h"
 #include "subedit/medium.h"
-#include "subedit/radius_map.h"
 #include "subedit/recipes/recipes.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <optional>
 
@@ -123,53 +121,6 @@ MaterialMap bakeMaps(const BakeOptions& options, const BakeSettings& settings) {
     return bakeAppearance(appearance, settings);
 }
 
-/// Least and greatest of per-texel values, by channel or alone.
-struct Extent {
-    float least = std::numeric_limits<float>::infinity();
-    float greatest = -std::numeric_limits<float>::infinity();
-
-    void add(float value) {
-        least = std::min(least, value);
-        greatest = std::max(greatest, value);
-    }
-};
-
-struct MaterialSummary {
-    Extent albedo[3];
-    Extent radius;
-    double memoryMb = 0.0;
-};
-
-MaterialSummary summarize(const MaterialMap& map) {
-    MaterialSummary summary;
-    const std::vector<float> albedo = albedoMap(map);
-    for (std::size_t i = 0; i < albedo.size(); ++i) {
-        summary.albedo[i % 3].add(albedo[i]);
-    }
-    for (const float radius : effectiveRadiusMap(map)) {
-        summary.radius.add(radius);
-    }
-    summary.memoryMb = static_cast<double>(map.logProfile.size() * sizeof(float)) / 1e6;
-    return summary;
-}
-
-void printSummary(const MaterialMap& map, const MaterialSummary& summary) {
-    fmt::print("name      {}\n", map.name);
-    fmt::print("size      {} x {} texels{}\n", map.width, map.height,
-               map.isHomogeneous() ? " (homogeneous)" : "");
-    fmt::print("segments  {} to r_s = {:.4g} mm\n", map.segments, map.maxRadiusMm);
-    fmt::print("eta       {:.4g}\n", map.eta);
-    for (int channel = 0; channel < 3; ++channel) {
-        fmt::print("albedo    {:5} {:.4f} to {:.4f}\n", channelName(channel),
-                   summary.albedo[channel].least, summary.albedo[channel].greatest);
-    }
-    fmt::print("R_P       {:.4g} to {:.4g} mm (energy 0.95, largest channel)\n",
-               summary.radius.least, summary.radius.greatest);
-    fmt::print("channels  {}{}\n", map.roughness.empty() ? "no roughness" : "roughness",
-               map.specular.empty() ? ", no specular" : ", specular");
-    fmt::print("memory    {:.4g} MB\n", summary.memoryMb);
-}
-
 void runBake(const BakeOptions& options) {
     if (options.list) {
         for (const Recipe& recipe : recipes()) {
@@ -210,44 +161,6 @@ void runBake(const BakeOptions& options) {
                   options.storeFloat ? StoredPrecision::Float : StoredPrecision::Half);
 }
 
-nlohmann::json summaryJson(const MaterialMap& map, const MaterialSummary& summary,
-                           const std::vector<std::string>& warnings) {
-    nlohmann::json albedoMin = nlohmann::json::array();
-    nlohmann::json albedoMax = nlohmann::json::array();
-    for (const Extent& extent : summary.albedo) {
-        albedoMin.push_back(extent.least);
-        albedoMax.push_back(extent.greatest);
-    }
-    return {{"name", map.name},
-            {"size", {map.width, map.height}},
-            {"segments", map.segments},
-            {"maxRadius", map.maxRadiusMm},
-            {"eta", map.eta},
-            {"albedo", {{"min", albedoMin}, {"max", albedoMax}}},
-            {"effectiveRadius", {{"min", summary.radius.least}, {"max", summary.radius.greatest}}},
-            {"roughness", !map.roughness.empty()},
-            {"specular", !map.specular.empty()},
-            {"memoryMegabytes", summary.memoryMb},
-            {"warnings", warnings}};
-}
-
-void runInfo(const InfoOptions& options) {
-    std::vector<std::string> warnings;
-    const std::filesystem::path file = findMaterial(options.material);
-    const MaterialMap map = readMaterial(file, &warnings);
-    const MaterialSummary summary = summarize(map);
-    if (options.json) {
-        // A name that is not UTF-8 is shown with replacement characters rather than refused.
-        fmt::print("{}\n", summaryJson(map, summary, warnings)
-                               .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
-    } else {
-        printSummary(map, summary);
-    }
-    for (const std::string& warning : warnings) {
-        fmt::print(stderr, "celadon: warning: '{}': {}\n", file.string(), warning);
-    }
-}
-
 void addBake(CLI::App& material) {
     const auto options = std::make_shared<BakeOptions>();
     CLI::App* bake = material.add_subcommand("bake", "make a material from a recipe or from maps");
@@ -282,7 +195,7 @@ void addInfo(CLI::App& material) {
     CLI::App* info = material.add_subcommand("info", "what a material file holds");
     info->add_option("material", options->material, "file, or name of a shipped one")->required();
     info->add_flag("--json", options->json, "one JSON object");
-    info->callback([options] { runInfo(*options); });
+    info->callback([options] { app::describeMaterial(options->material, options->json); });
 }
 
 } // namespace
