@@ -1,7 +1,9 @@
 #include "app/command_material.h"
 
 #include "app/describe_material.h"
+#include "app/option_takers.h"
 #include "app/rgb_argument.h"
+#include "renderer/output/atomic_file.h"
 #include "subedit/errors.h"
 #include "subedit/map/image_map.h"
 #include "subedit/map/material_bake.h"
@@ -20,12 +22,13 @@
 #include <memory>
 #include <optional>
 
-namespace celadon {
+namespace celadon::app {
 
 namespace {
 
 using namespace subedit;
 
+constexpr int kMaxSize = 4096;
 constexpr float kSmallestMeanFreePathMm = 1e-4f;
 constexpr float kLargestMeanFreePathMm = 1e4f;
 
@@ -44,7 +47,7 @@ struct BakeOptions {
     std::string output;
 };
 
-struct InfoOptions {
+struct MaterialInfoOptions {
     std::string material;
     bool json = false;
 };
@@ -142,6 +145,7 @@ void runBake(const BakeOptions& options) {
     if (options.output.empty()) {
         throw UsageError("material bake", "-o is missing", "name the file to write");
     }
+    checkWritable(options.output);
     BakeSettings settings;
     settings.maxRadiusMm = options.maxRadiusMm;
     MaterialMap map;
@@ -161,50 +165,66 @@ void runBake(const BakeOptions& options) {
                   options.storeFloat ? StoredPrecision::Float : StoredPrecision::Half);
 }
 
-void addBake(CLI::App& material) {
+Command addBake(CLI::App& material) {
     const auto options = std::make_shared<BakeOptions>();
-    CLI::App* bake = material.add_subcommand("bake", "make a material from a recipe or from maps");
-    bake->add_option("--recipe", options->recipe, "procedural or measured material, see --list");
-    bake->add_flag("--list", options->list, "list the recipes");
-    bake->add_option("--albedo", options->albedo,
-                     "image or R,G,B: surface albedo; integer images are sRGB encoded");
-    bake->add_option("--mean-free-path", options->meanFreePath,
-                     "image or R,G,B: 1/sigma_t' in mm, linear");
-    bake->add_option("--mean-free-path-scale", options->meanFreePathScale,
-                     "mm that 1 in the mean free path image stands for")
-        ->check(CLI::Range(1e-6, 1e6))
-        ->capture_default_str();
-    bake->add_option("--size", options->size, "texels a side (default: the recipe's or the maps')")
-        ->check(CLI::Range(1, 4096));
-    bake->add_option("--segments", options->segments, "of the stored profiles")
-        ->check(CLI::Range(1, kMaxSegments));
-    bake->add_option("--max-radius", options->maxRadiusMm,
-                     "r_s in mm (default: holds 99.9 % of the longest profile)")
-        ->check(CLI::Range(1e-6, 1e6));
-    bake->add_option("--eta", options->eta, "relative index of refraction, for maps")
-        ->check(CLI::Range(0.5, 4.0))
-        ->capture_default_str();
-    bake->add_option("--name", options->name, "of the material");
-    bake->add_flag("--float", options->storeFloat, "store single instead of half precision");
-    bake->add_option("-o,--output", options->output, "FILE.subedit.exr");
-    bake->callback([options] { runBake(*options); });
+    BakeOptions& o = *options;
+    CLI::App* bake = material.add_subcommand("bake", "Makes a material from a recipe or from maps");
+    const char* group = "From a recipe";
+    addOption(*bake, "--recipe", {group, "NAME", "A procedural or measured material, see --list"},
+              takeText(o.recipe));
+    addFlag(*bake, "--list", group, "Lists the recipes", o.list);
+    group = "From maps";
+    addOption(
+        *bake, "--albedo",
+        {group, "FILE|R,G,B", "Surface albedo, 0 to 1; pictures of 8 or 16 bits are sRGB encoded"},
+        takeText(o.albedo));
+    addOption(*bake, "--mean-free-path", {group, "FILE|R,G,B", "1/sigma_t' in mm, linear"},
+              takeText(o.meanFreePath));
+    addOption(*bake, "--mean-free-path-scale",
+              {group, "MM", "What 1 in the mean free path picture stands for; default 1"},
+              takeNumber(o.meanFreePathScale, {1e-6, 1e6, false}));
+    addOption(*bake, "--eta",
+              {group, "N", fmt::format("Relative index of refraction; default {}", o.eta)},
+              takeNumber(o.eta, {0.5, 4.0, false}));
+    group = "Result";
+    addOption(*bake, "-o,--output", {group, "FILE", "The material, NAME.subedit.exr"},
+              takeText(o.output));
+    addOption(*bake, "--size", {group, "N", "Texels a side; default: the recipe's or the maps'"},
+              takeInteger(o.size, 1, kMaxSize));
+    addOption(*bake, "--segments",
+              {group, "N",
+               fmt::format("Segments of the stored profiles, 1 to {}; default: the recipe's, or {}",
+                           kMaxSegments, BakeSettings{}.segments)},
+              takeInteger(o.segments, 1, kMaxSegments));
+    addOption(*bake, "--max-radius",
+              {group, "MM", "r_s; default: holds 99.9 % of the longest profile"},
+              takeNumber(o.maxRadiusMm, {1e-6, 1e6, false}));
+    addOption(*bake, "--name", {group, "NAME", "Of the material; default: the file's or recipe's"},
+              takeText(o.name));
+    addFlag(*bake, "--float", group, "Stores single instead of half precision", o.storeFloat);
+    return {bake, [options] { runBake(*options); }};
 }
 
-void addInfo(CLI::App& material) {
-    const auto options = std::make_shared<InfoOptions>();
-    CLI::App* info = material.add_subcommand("info", "what a material file holds");
-    info->add_option("material", options->material, "file, or name of a shipped one")->required();
-    info->add_flag("--json", options->json, "one JSON object");
-    info->callback([options] { app::describeMaterial(options->material, options->json); });
+Command addInfo(CLI::App& material) {
+    const auto options = std::make_shared<MaterialInfoOptions>();
+    CLI::App* info = material.add_subcommand("info", "Tells what a material holds");
+    addPositional(*info, "MATERIAL", "A .subedit.exr file, or the name of a shipped material",
+                  options->material);
+    addFlag(*info, "--json", "Result", "Prints one JSON object", options->json);
+    return {info, [options] {
+                if (options->material.empty()) {
+                    throw UsageError("material info", "no material is given",
+                                     "name a file or a shipped material");
+                }
+                describeMaterial(options->material, options->json);
+            }};
 }
 
 } // namespace
 
-void addMaterialCommand(CLI::App& app) {
-    CLI::App* material = app.add_subcommand("material", "SubEdit materials without the editor");
-    material->require_subcommand(1);
-    addBake(*material);
-    addInfo(*material);
+Command addMaterialCommand(CLI::App& root) {
+    CLI::App* material = root.add_subcommand("material", "Makes and describes SubEdit materials");
+    return {material, {}, {addBake(*material), addInfo(*material)}};
 }
 
-} // namespace celadon
+} // namespace celadon::app
