@@ -13,10 +13,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <numeric>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -66,9 +64,14 @@ std::vector<std::string> optionNames(const CLI::App& app) {
     return names;
 }
 
+/// "celadon profile make"
+std::string fullName(const CLI::App& app) {
+    const CLI::App* parent = app.get_parent();
+    return parent == nullptr ? app.get_name() : fullName(*parent) + ' ' + app.get_name();
+}
+
 std::string helpRemedy(const CLI::App& app) {
-    const bool isCommand = app.get_parent() != nullptr;
-    return fmt::format("see 'celadon {}--help'", isCommand ? app.get_name() + " " : "");
+    return fmt::format("see '{} --help'", fullName(app));
 }
 
 /// CLI11 leaves two blank lines between groups.
@@ -89,8 +92,16 @@ UsageError misunderstood(const CLI::ParseError& error, const CLI::App& app) {
     return {"command line", text, helpRemedy(app)};
 }
 
+std::vector<std::string> commandNames(const std::vector<Command>& commands) {
+    std::vector<std::string> names;
+    for (const Command& command : commands) {
+        names.push_back(command.options->get_name());
+    }
+    return names;
+}
+
 /// The first word that nothing took, if any, becomes an error that names it.
-void refuseLeftOver(const CLI::App& app, const std::vector<std::string>& commandNames) {
+void refuseLeftOver(const CLI::App& app, const std::vector<Command>& subcommands) {
     const std::vector<std::string> rest = app.remaining();
     if (rest.empty()) {
         return;
@@ -99,10 +110,11 @@ void refuseLeftOver(const CLI::App& app, const std::vector<std::string>& command
     const auto option = std::find_if(rest.begin(), rest.end(), [](const std::string& word) {
         return word.starts_with('-') && word != "-";
     });
-    const bool isCommand = app.get_parent() == nullptr && option == rest.end();
+    const bool isCommand = !subcommands.empty() && option == rest.end();
     const std::string full = option != rest.end() ? *option : rest.front();
     const std::string word = option != rest.end() ? full.substr(0, full.find('=')) : full;
-    const std::string near = closest(word, isCommand ? commandNames : optionNames(app));
+    const std::string near =
+        closest(word, isCommand ? commandNames(subcommands) : optionNames(app));
     const std::string suggestion = near.empty() ? "" : fmt::format("did you mean '{}'? ", near);
     const char* what = option != rest.end() ? "unknown option"
                        : isCommand          ? "unknown command"
@@ -110,62 +122,74 @@ void refuseLeftOver(const CLI::App& app, const std::vector<std::string>& command
     throw UsageError(fmt::format("'{}'", word), what, suggestion + helpRemedy(app));
 }
 
+/// What all commands have in common, at every depth.
+void addCommonOptions(const Command& command, bool& verbose) {
+    CLI::App& app = *command.options;
+    app.group("Commands")->allow_extras(); // unknown words are refused here, in our words
+    app.get_formatter()->label("SUBCOMMAND", "COMMAND");
+    app.set_help_flag("-h,--help", "Shows this help")->group("General");
+    if (command.subcommands.empty()) {
+        addFlag(app, "--verbose", "General", "Tells on stderr what is being done and chosen",
+                verbose);
+    } else {
+        app.footer(
+            fmt::format("'{} COMMAND --help' lists the options of a command.", fullName(app)));
+    }
+    for (const Command& subcommand : command.subcommands) {
+        addCommonOptions(subcommand, verbose);
+    }
+}
+
+/// The command that was named, looked for from `command` down.
+const Command& chosenCommand(const Command& command) {
+    const auto chosen =
+        std::find_if(command.subcommands.begin(), command.subcommands.end(),
+                     [](const Command& subcommand) { return subcommand.options->parsed(); });
+    const bool isNamed = chosen != command.subcommands.end();
+    // The innermost command explains what it does not know; those around it come after.
+    const Command& result = isNamed ? chosenCommand(*chosen) : command;
+    refuseLeftOver(*command.options, command.subcommands);
+    return result;
+}
+
+const CLI::App& innermostParsed(const CLI::App& app) {
+    const std::vector<CLI::App*> parsed = app.get_subcommands();
+    return parsed.empty() ? app : innermostParsed(*parsed.front());
+}
+
 } // namespace
 
 int runCommandLine(int argc, const char* const* argv) {
-    CLI::App root(kDescription, "celadon");
-    root.set_help_flag("-h,--help", "Shows this help");
-    root.set_version_flag("--version", "celadon " CELADON_VERSION, "Shows the version");
-    root.get_formatter()->label("SUBCOMMAND", "COMMAND");
-    root.allow_extras();
+    CLI::App app(kDescription, "celadon");
     bool verbose = false;
-
-    const std::array commands{addRenderCommand(root), addCompareCommand(root),
-                              addInfoCommand(root)};
-    std::vector<std::string> commandNames;
-    for (const Command& command : commands) {
-        commandNames.push_back(command.options->get_name());
-        command.options->group("Commands")->allow_extras();
-        command.options->set_help_flag("-h,--help", "Shows this help")->group("General");
-        addFlag(*command.options, "--verbose", "General",
-                "Tells on stderr what is being done and chosen", verbose);
-    }
-
-    root.footer("'celadon COMMAND --help' lists the options of a command.");
-    root.allow_extras(false); // these two refuse unknown words themselves
-    addProfileCommand(root);
-    addMaterialCommand(root);
-    root.allow_extras();
+    const Command root{&app,
+                       {},
+                       {addRenderCommand(app), addProfileCommand(app), addMaterialCommand(app),
+                        addCompareCommand(app), addInfoCommand(app)}};
+    addCommonOptions(root, verbose);
+    app.set_version_flag("--version", "celadon " CELADON_VERSION, "Shows the version")
+        ->group("General");
     try {
-        root.parse(argc, argv);
+        app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
-        std::fputs(helpText(root).c_str(), stdout);
+        std::fputs(helpText(app).c_str(), stdout);
         return 0;
     } catch (const CLI::CallForVersion& version) {
         std::puts(version.what());
         return 0;
     } catch (const CLI::ParseError& error) {
-        const std::vector<CLI::App*> parsed = root.get_subcommands();
-        throw misunderstood(error, parsed.empty() ? root : *parsed.front());
+        throw misunderstood(error, innermostParsed(app));
     }
 
-    const auto chosen = std::find_if(commands.begin(), commands.end(), [](const Command& command) {
-        return command.options->parsed();
-    });
-    if (chosen != commands.end()) {
-        refuseLeftOver(*chosen->options, commandNames);
-    }
-    if (root.got_subcommand("profile") || root.got_subcommand("material")) {
-        return 0; // done while parsing
-    }
-    refuseLeftOver(root, commandNames);
-    if (chosen == commands.end()) {
-        std::fputs(helpText(root).c_str(), stderr);
-        throw UsageError("command line", "no command is given",
-                         fmt::format("choose {}", fmt::join(commandNames, ", ")));
+    const Command& chosen = chosenCommand(root);
+    if (!chosen.run) {
+        throw UsageError(
+            &chosen == &root ? "command line" : fullName(*chosen.options), "no command is given",
+            fmt::format("choose {}; {}", fmt::join(commandNames(chosen.subcommands), ", "),
+                        helpRemedy(*chosen.options)));
     }
     log::setVerbose(verbose);
-    chosen->run();
+    chosen.run();
     return 0;
 }
 

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -16,7 +17,8 @@ namespace celadon::app {
 
 struct Command {
     CLI::App* options = nullptr;
-    std::function<void()> run; ///< throws celadon::Error
+    std::function<void()> run = {};        ///< throws celadon::Error
+    std::vector<Command> subcommands = {}; ///< one of which is then to be named, instead of `run`
 };
 
 /// How an option appears in the help.

@@ -1,33 +1,34 @@
 #include "app/command_material.h"
 
+#include "app/describe_material.h"
+#include "app/option_takers.h"
 #include "app/rgb_argument.h"
+#include "renderer/output/atomic_file.h"
 #include "subedit/errors.h"
 #include "subedit/map/image_map.h"
 #include "subedit/map/material_bake.h"
 #include "subedit/map/material_file.h"
 #include "subedit/map/shipped_materials.h"
 #include "subedit/medium.h"
-#include "subedit/radius_map.h"
 #include "subedit/recipes/recipes.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <memory>
 #include <optional>
 
-namespace celadon {
+namespace celadon::app {
 
 namespace {
 
 using namespace subedit;
 
+constexpr int kMaxSize = 4096;
 constexpr float kSmallestMeanFreePathMm = 1e-4f;
 constexpr float kLargestMeanFreePathMm = 1e4f;
 
@@ -46,7 +47,7 @@ struct BakeOptions {
     std::string output;
 };
 
-struct InfoOptions {
+struct MaterialInfoOptions {
     std::string material;
     bool json = false;
 };
@@ -123,53 +124,6 @@ MaterialMap bakeMaps(const BakeOptions& options, const BakeSettings& settings) {
     return bakeAppearance(appearance, settings);
 }
 
-/// Least and greatest of per-texel values, by channel or alone.
-struct Extent {
-    float least = std::numeric_limits<float>::infinity();
-    float greatest = -std::numeric_limits<float>::infinity();
-
-    void add(float value) {
-        least = std::min(least, value);
-        greatest = std::max(greatest, value);
-    }
-};
-
-struct MaterialSummary {
-    Extent albedo[3];
-    Extent radius;
-    double memoryMb = 0.0;
-};
-
-MaterialSummary summarize(const MaterialMap& map) {
-    MaterialSummary summary;
-    const std::vector<float> albedo = albedoMap(map);
-    for (std::size_t i = 0; i < albedo.size(); ++i) {
-        summary.albedo[i % 3].add(albedo[i]);
-    }
-    for (const float radius : effectiveRadiusMap(map)) {
-        summary.radius.add(radius);
-    }
-    summary.memoryMb = static_cast<double>(map.logProfile.size() * sizeof(float)) / 1e6;
-    return summary;
-}
-
-void printSummary(const MaterialMap& map, const MaterialSummary& summary) {
-    fmt::print("name      {}\n", map.name);
-    fmt::print("size      {} x {} texels{}\n", map.width, map.height,
-               map.isHomogeneous() ? " (homogeneous)" : "");
-    fmt::print("segments  {} to r_s = {:.4g} mm\n", map.segments, map.maxRadiusMm);
-    fmt::print("eta       {:.4g}\n", map.eta);
-    for (int channel = 0; channel < 3; ++channel) {
-        fmt::print("albedo    {:5} {:.4f} to {:.4f}\n", channelName(channel),
-                   summary.albedo[channel].least, summary.albedo[channel].greatest);
-    }
-    fmt::print("R_P       {:.4g} to {:.4g} mm (energy 0.95, largest channel)\n",
-               summary.radius.least, summary.radius.greatest);
-    fmt::print("channels  {}{}\n", map.roughness.empty() ? "no roughness" : "roughness",
-               map.specular.empty() ? ", no specular" : ", specular");
-    fmt::print("memory    {:.4g} MB\n", summary.memoryMb);
-}
-
 void runBake(const BakeOptions& options) {
     if (options.list) {
         for (const Recipe& recipe : recipes()) {
@@ -191,6 +145,7 @@ void runBake(const BakeOptions& options) {
     if (options.output.empty()) {
         throw UsageError("material bake", "-o is missing", "name the file to write");
     }
+    checkWritable(options.output);
     BakeSettings settings;
     settings.maxRadiusMm = options.maxRadiusMm;
     MaterialMap map;
@@ -210,88 +165,66 @@ void runBake(const BakeOptions& options) {
                   options.storeFloat ? StoredPrecision::Float : StoredPrecision::Half);
 }
 
-nlohmann::json summaryJson(const MaterialMap& map, const MaterialSummary& summary,
-                           const std::vector<std::string>& warnings) {
-    nlohmann::json albedoMin = nlohmann::json::array();
-    nlohmann::json albedoMax = nlohmann::json::array();
-    for (const Extent& extent : summary.albedo) {
-        albedoMin.push_back(extent.least);
-        albedoMax.push_back(extent.greatest);
-    }
-    return {{"name", map.name},
-            {"size", {map.width, map.height}},
-            {"segments", map.segments},
-            {"maxRadius", map.maxRadiusMm},
-            {"eta", map.eta},
-            {"albedo", {{"min", albedoMin}, {"max", albedoMax}}},
-            {"effectiveRadius", {{"min", summary.radius.least}, {"max", summary.radius.greatest}}},
-            {"roughness", !map.roughness.empty()},
-            {"specular", !map.specular.empty()},
-            {"memoryMegabytes", summary.memoryMb},
-            {"warnings", warnings}};
-}
-
-void runInfo(const InfoOptions& options) {
-    std::vector<std::string> warnings;
-    const std::filesystem::path file = findMaterial(options.material);
-    const MaterialMap map = readMaterial(file, &warnings);
-    const MaterialSummary summary = summarize(map);
-    if (options.json) {
-        // A name that is not UTF-8 is shown with replacement characters rather than refused.
-        fmt::print("{}\n", summaryJson(map, summary, warnings)
-                               .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
-    } else {
-        printSummary(map, summary);
-    }
-    for (const std::string& warning : warnings) {
-        fmt::print(stderr, "celadon: warning: '{}': {}\n", file.string(), warning);
-    }
-}
-
-void addBake(CLI::App& material) {
+Command addBake(CLI::App& material) {
     const auto options = std::make_shared<BakeOptions>();
-    CLI::App* bake = material.add_subcommand("bake", "make a material from a recipe or from maps");
-    bake->add_option("--recipe", options->recipe, "procedural or measured material, see --list");
-    bake->add_flag("--list", options->list, "list the recipes");
-    bake->add_option("--albedo", options->albedo,
-                     "image or R,G,B: surface albedo; integer images are sRGB encoded");
-    bake->add_option("--mean-free-path", options->meanFreePath,
-                     "image or R,G,B: 1/sigma_t' in mm, linear");
-    bake->add_option("--mean-free-path-scale", options->meanFreePathScale,
-                     "mm that 1 in the mean free path image stands for")
-        ->check(CLI::Range(1e-6, 1e6))
-        ->capture_default_str();
-    bake->add_option("--size", options->size, "texels a side (default: the recipe's or the maps')")
-        ->check(CLI::Range(1, 4096));
-    bake->add_option("--segments", options->segments, "of the stored profiles")
-        ->check(CLI::Range(1, kMaxSegments));
-    bake->add_option("--max-radius", options->maxRadiusMm,
-                     "r_s in mm (default: holds 99.9 % of the longest profile)")
-        ->check(CLI::Range(1e-6, 1e6));
-    bake->add_option("--eta", options->eta, "relative index of refraction, for maps")
-        ->check(CLI::Range(0.5, 4.0))
-        ->capture_default_str();
-    bake->add_option("--name", options->name, "of the material");
-    bake->add_flag("--float", options->storeFloat, "store single instead of half precision");
-    bake->add_option("-o,--output", options->output, "FILE.subedit.exr");
-    bake->callback([options] { runBake(*options); });
+    BakeOptions& o = *options;
+    CLI::App* bake = material.add_subcommand("bake", "Makes a material from a recipe or from maps");
+    const char* group = "From a recipe";
+    addOption(*bake, "--recipe", {group, "NAME", "A procedural or measured material, see --list"},
+              takeText(o.recipe));
+    addFlag(*bake, "--list", group, "Lists the recipes", o.list);
+    group = "From maps";
+    addOption(
+        *bake, "--albedo",
+        {group, "FILE|R,G,B", "Surface albedo, 0 to 1; pictures of 8 or 16 bits are sRGB encoded"},
+        takeText(o.albedo));
+    addOption(*bake, "--mean-free-path", {group, "FILE|R,G,B", "1/sigma_t' in mm, linear"},
+              takeText(o.meanFreePath));
+    addOption(*bake, "--mean-free-path-scale",
+              {group, "MM", "What 1 in the mean free path picture stands for; default 1"},
+              takeNumber(o.meanFreePathScale, {1e-6, 1e6, false}));
+    addOption(*bake, "--eta",
+              {group, "N", fmt::format("Relative index of refraction; default {}", o.eta)},
+              takeNumber(o.eta, {0.5, 4.0, false}));
+    group = "Result";
+    addOption(*bake, "-o,--output", {group, "FILE", "The material, NAME.subedit.exr"},
+              takeText(o.output));
+    addOption(*bake, "--size", {group, "N", "Texels a side; default: the recipe's or the maps'"},
+              takeInteger(o.size, 1, kMaxSize));
+    addOption(*bake, "--segments",
+              {group, "N",
+               fmt::format("Segments of the stored profiles, 1 to {}; default: the recipe's, or {}",
+                           kMaxSegments, BakeSettings{}.segments)},
+              takeInteger(o.segments, 1, kMaxSegments));
+    addOption(*bake, "--max-radius",
+              {group, "MM", "r_s; default: holds 99.9 % of the longest profile"},
+              takeNumber(o.maxRadiusMm, {1e-6, 1e6, false}));
+    addOption(*bake, "--name", {group, "NAME", "Of the material; default: the file's or recipe's"},
+              takeText(o.name));
+    addFlag(*bake, "--float", group, "Stores single instead of half precision", o.storeFloat);
+    return {bake, [options] { runBake(*options); }};
 }
 
-void addInfo(CLI::App& material) {
-    const auto options = std::make_shared<InfoOptions>();
-    CLI::App* info = material.add_subcommand("info", "what a material file holds");
-    info->add_option("material", options->material, "file, or name of a shipped one")->required();
-    info->add_flag("--json", options->json, "one JSON object");
-    info->callback([options] { runInfo(*options); });
+Command addInfo(CLI::App& material) {
+    const auto options = std::make_shared<MaterialInfoOptions>();
+    CLI::App* info = material.add_subcommand("info", "Tells what a material holds");
+    addPositional(*info, "MATERIAL", "A .subedit.exr file, or the name of a shipped material",
+                  options->material);
+    addFlag(*info, "--json", "Result", "Prints one JSON object", options->json);
+    return {info, [options] {
+                if (options->material.empty()) {
+                    throw UsageError("material info", "no material is given",
+                                     "name a file or a shipped material");
+                }
+                describeMaterial(options->material, options->json);
+            }};
 }
 
 } // namespace
 
-void addMaterialCommand(CLI::App& app) {
-    CLI::App* material = app.add_subcommand("material", "SubEdit materials without the editor");
-    material->require_subcommand(1);
-    addBake(*material);
-    addInfo(*material);
+Command addMaterialCommand(CLI::App& root) {
+    CLI::App* material = root.add_subcommand("material", "Makes and describes SubEdit materials");
+    return {material, {}, {addBake(*material), addInfo(*material)}};
 }
 
-} // namespace celadon
+} // namespace celadon::app

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <CLI/App.hpp>
+#include "app/command.h"
 
-namespace celadon {
+namespace celadon::app {
 
 /// `celadon material bake|info`: SubEdit materials without the editor.
-/// The command runs in the parser's callback; failures are celadon::Error.
-void addMaterialCommand(CLI::App& app);
+[[nodiscard]] Command addMaterialCommand(CLI::App& root);
 
-} // namespace celadon
+} // namespace celadon::app

@@ -1,6 +1,8 @@
 #include "app/command_profile.h"
 
+#include "app/option_takers.h"
 #include "app/rgb_argument.h"
+#include "renderer/output/atomic_file.h"
 #include "subedit/errors.h"
 #include "subedit/fit/profile_fit.h"
 #include "subedit/map/material_file.h"
@@ -16,12 +18,15 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string_view>
 
-namespace celadon {
+namespace celadon::app {
 
 namespace {
 
@@ -30,17 +35,22 @@ using namespace subedit;
 constexpr double kLargestCoefficient = 1e6; ///< 1/mm
 constexpr double kLargestLengthMm = 1e6;
 constexpr int kCsvIntervals = 256;
+constexpr double kEta = 1.3; ///< of the media that Jensen et al. 2001 measured
+
+enum class Model { Dipole, NormalizedDiffusion };
+constexpr std::array<std::string_view, 2> kModels{"dipole", "normalized-diffusion"};
+/// In the order of DiffusionFit.
+constexpr std::array<std::string_view, 3> kFits{"searchlight", "diffuse", "dmfp"};
 
 struct MakeOptions {
-    std::string model = "dipole";
+    Model model = Model::Dipole;
     std::string preset;
     std::string absorption;
     std::string reducedScattering;
     std::string albedo;
     std::string meanFreePath;
-    double eta = 1.3;
-    bool etaIsGiven = false;
-    std::string fit = "searchlight";
+    std::optional<double> eta;
+    DiffusionFit fit = DiffusionFit::Searchlight;
     int segments = 32;
     double maxRadiusMm = 0.0;
     std::string name;
@@ -98,34 +108,29 @@ Medium makeMedium(const MakeOptions& options, MediumSource source) {
     Medium medium;
     if (source == MediumSource::Preset) {
         medium = findMediumPreset(options.preset);
-        if (options.etaIsGiven) {
-            medium.eta = options.eta;
-        }
+        medium.eta = options.eta.value_or(medium.eta);
     } else if (source == MediumSource::Coefficients) {
         medium = {requireRgb("--absorption", options.absorption, 0.0, kLargestCoefficient),
                   requireRgb("--reduced-scattering", options.reducedScattering, 1e-9,
                              kLargestCoefficient),
-                  options.eta};
+                  options.eta.value_or(kEta)};
     } else {
         medium = mediumFromAlbedo(requireRgb("--albedo", options.albedo, 1e-9, 1.0),
-                                  requireMeanFreePath(options), options.eta);
+                                  requireMeanFreePath(options), options.eta.value_or(kEta));
     }
     validateMedium(medium);
     return medium;
 }
 
 RadialCurves makeNormalizedDiffusion(const MakeOptions& options, MediumSource source, double& eta) {
-    const DiffusionFit fit = options.fit == "diffuse" ? DiffusionFit::Diffuse
-                             : options.fit == "dmfp"  ? DiffusionFit::Dmfp
-                                                      : DiffusionFit::Searchlight;
     if (source == MediumSource::Albedo) {
         return normalizedDiffusionProfile(requireRgb("--albedo", options.albedo, 0.0, 1.0),
-                                          requireMeanFreePath(options), fit);
+                                          requireMeanFreePath(options), options.fit);
     }
     const Medium medium = makeMedium(options, source);
     eta = medium.eta;
     glm::dvec3 length = 1.0 / medium.reducedExtinction();
-    if (fit == DiffusionFit::Dmfp) {
+    if (options.fit == DiffusionFit::Dmfp) {
         for (int channel = 0; channel < 3; ++channel) {
             if (medium.absorption[channel] <= 0.0) {
                 throw UsageError("--fit dmfp",
@@ -138,7 +143,7 @@ RadialCurves makeNormalizedDiffusion(const MakeOptions& options, MediumSource so
                                               medium.reducedExtinction()[channel]);
         }
     }
-    return normalizedDiffusionProfile(halfSpaceTotal(medium), length, fit);
+    return normalizedDiffusionProfile(halfSpaceTotal(medium), length, options.fit);
 }
 
 /// The model's own values; the row at r = 0 is left out where one is infinite.
@@ -168,11 +173,24 @@ void reportFit(const RadialCurves& curves, const FittedProfile& fitted) {
     }
 }
 
+/// Before the work, not after.
+void checkMakeOutput(const std::string& output) {
+    if (output.empty()) {
+        return;
+    }
+    if (!output.ends_with(".csv") && !output.ends_with(".exr")) {
+        throw UsageError(fmt::format("-o '{}'", output), "is of no known kind",
+                         "end it in .csv or .subedit.exr");
+    }
+    checkWritable(output);
+}
+
 void runMake(const MakeOptions& options) {
+    checkMakeOutput(options.output);
     const MediumSource source = mediumSource(options);
-    double eta = options.eta;
+    double eta = options.eta.value_or(kEta);
     RadialCurves curves;
-    if (options.model == "dipole") {
+    if (options.model == Model::Dipole) {
         const Medium medium = makeMedium(options, source);
         eta = medium.eta;
         curves = dipoleProfile(medium);
@@ -184,10 +202,6 @@ void runMake(const MakeOptions& options) {
     if (output.empty() || output.extension() == ".csv") {
         emit(options.output, profileCsv(curves, chooseMaxRadiusMm(curves, settings)));
         return;
-    }
-    if (!options.output.ends_with(".exr")) {
-        throw UsageError(fmt::format("-o '{}'", options.output), "is of no known kind",
-                         "end it in .csv or .subedit.exr");
     }
     const FittedProfile fitted = fitProfile(curves, settings);
     MaterialMap map;
@@ -204,6 +218,13 @@ void runMake(const MakeOptions& options) {
 }
 
 void runTable(const TableOptions& options) {
+    if (options.material.empty()) {
+        throw UsageError("profile table", "no material is given",
+                         "name a file or a shipped material");
+    }
+    if (!options.output.empty()) {
+        checkWritable(options.output);
+    }
     const MaterialMap map = readMaterial(findMaterial(options.material));
     const MeanProfile mean = meanProfile(map, effectiveRadiusMap(map, options.energy));
     const RangeTable table = RangeTable::build(mean, options.epsilon);
@@ -223,63 +244,77 @@ void runTable(const TableOptions& options) {
     emit(options.output, csv);
 }
 
-void addMake(CLI::App& profile) {
+Command addMake(CLI::App& profile) {
     const auto options = std::make_shared<MakeOptions>();
-    CLI::App* make = profile.add_subcommand("make", "a scattering profile from a model");
-    make->add_option("--model", options->model, "diffusion model")
-        ->check(CLI::IsMember({"dipole", "normalized-diffusion"}))
-        ->capture_default_str();
-    make->add_option("--preset", options->preset,
-                     "measured medium: marble, skin1, wholemilk, ... (Jensen et al. 2001)");
-    make->add_option("--absorption", options->absorption, "sigma_a, R,G,B in 1/mm");
-    make->add_option("--reduced-scattering", options->reducedScattering, "sigma_s', R,G,B in 1/mm");
-    make->add_option("--albedo", options->albedo,
-                     "R,G,B: surface albedo for normalized-diffusion, single scattering alpha' "
-                     "for dipole");
-    make->add_option("--mean-free-path", options->meanFreePath, "1/sigma_t', R,G,B in mm");
-    CLI::Option* eta = make->add_option("--eta", options->eta, "relative index of refraction")
-                           ->check(CLI::Range(0.5, 4.0))
-                           ->capture_default_str();
-    make->add_option("--fit", options->fit, "of normalized diffusion")
-        ->check(CLI::IsMember({"searchlight", "diffuse", "dmfp"}))
-        ->capture_default_str();
-    make->add_option("--segments", options->segments, "of the stored profile")
-        ->check(CLI::Range(1, kMaxSegments))
-        ->capture_default_str();
-    make->add_option("--max-radius", options->maxRadiusMm,
-                     "r_s in mm (default: holds 99.9 % of the energy)")
-        ->check(CLI::Range(1e-6, 1e6));
-    make->add_option("--name", options->name, "of the material");
-    make->add_option("-o,--output", options->output,
-                     "FILE.csv (r_mm,R,G,B) or FILE.subedit.exr; CSV on stdout without it");
-    make->callback([options, eta] {
-        options->etaIsGiven = eta->count() > 0;
-        runMake(*options);
-    });
+    MakeOptions& o = *options;
+    CLI::App* make = profile.add_subcommand("make", "Computes a scattering profile from a model");
+    const char* group = "Medium";
+    addOption(
+        *make, "--preset",
+        {group, "NAME", "A measured medium: marble, skin1, wholemilk, ... (Jensen et al. 2001)"},
+        takeText(o.preset));
+    addOption(*make, "--absorption", {group, "R,G,B", "sigma_a in 1/mm"}, takeText(o.absorption));
+    addOption(*make, "--reduced-scattering", {group, "R,G,B", "sigma_s' in 1/mm"},
+              takeText(o.reducedScattering));
+    addOption(*make, "--albedo",
+              {group, "R,G,B",
+               "Surface albedo for normalized-diffusion, single scattering alpha' for dipole"},
+              takeText(o.albedo));
+    addOption(*make, "--mean-free-path", {group, "R,G,B", "1/sigma_t' in mm"},
+              takeText(o.meanFreePath));
+    addOption(*make, "--eta",
+              {group, "N",
+               fmt::format("Relative index of refraction; default: the preset's, else {}", kEta)},
+              takeNumber(o.eta, {0.5, 4.0, false}));
+    group = "Model";
+    addOption(*make, "--model", {group, "NAME", "dipole or normalized-diffusion; default dipole"},
+              takeChoice(o.model, kModels));
+    addOption(*make, "--fit",
+              {group, "searchlight|diffuse|dmfp", "Of normalized diffusion; default searchlight"},
+              takeChoice(o.fit, kFits));
+    group = "Result";
+    addOption(*make, "-o,--output",
+              {group, "FILE",
+               "FILE.csv (r_mm,R,G,B) or FILE.subedit.exr (one texel); default: CSV on stdout"},
+              takeText(o.output));
+    addOption(*make, "--segments",
+              {group, "N",
+               fmt::format("Segments of the stored profile, 1 to {}; default {}", kMaxSegments,
+                           o.segments)},
+              takeInteger(o.segments, 1, kMaxSegments));
+    addOption(*make, "--max-radius", {group, "MM", "r_s; default: holds 99.9 % of the energy"},
+              takeNumber(o.maxRadiusMm, {1e-6, 1e6, false}));
+    addOption(*make, "--name", {group, "NAME", "Of the material; default: the preset's or file's"},
+              takeText(o.name));
+    return {make, [options] { runMake(*options); }};
 }
 
-void addTable(CLI::App& profile) {
+Command addTable(CLI::App& profile) {
     const auto options = std::make_shared<TableOptions>();
+    TableOptions& o = *options;
     CLI::App* table = profile.add_subcommand(
-        "table", "a material's mean profile and minimal effective rendering radii, as CSV");
-    table->add_option("material", options->material, "file, or name of a shipped one")->required();
-    table->add_option("--epsilon", options->epsilon, "error allowed in a ring's energy")
-        ->check(CLI::Range(1e-6, 1.0))
-        ->capture_default_str();
-    table->add_option("--energy", options->energy, "that the effective radius holds")
-        ->check(CLI::Range(0.01, 1.0))
-        ->capture_default_str();
-    table->add_option("-o,--output", options->output, "FILE.csv; stdout without it");
-    table->callback([options] { runTable(*options); });
+        "table", "Computes a material's mean profile and minimal rendering radii, as CSV");
+    addPositional(*table, "MATERIAL", "A .subedit.exr file, or the name of a shipped material",
+                  o.material);
+    const char* group = "Table";
+    addOption(*table, "--epsilon",
+              {group, "E", fmt::format("Error allowed in a ring's energy; default {}", o.epsilon)},
+              takeNumber(o.epsilon, {1e-6, 1.0, false}));
+    addOption(
+        *table, "--energy",
+        {group, "F", fmt::format("Energy that the effective radius holds; default {}", o.energy)},
+        takeNumber(o.energy, {0.01, 1.0, false}));
+    addOption(*table, "-o,--output", {group, "FILE", "FILE.csv; default: stdout"},
+              takeText(o.output));
+    return {table, [options] { runTable(*options); }};
 }
 
 } // namespace
 
-void addProfileCommand(CLI::App& app) {
-    CLI::App* profile = app.add_subcommand("profile", "scattering profiles and their tables");
-    profile->require_subcommand(1);
-    addMake(*profile);
-    addTable(*profile);
+Command addProfileCommand(CLI::App& root) {
+    CLI::App* profile =
+        root.add_subcommand("profile", "Computes scattering profiles and their tables");
+    return {profile, {}, {addMake(*profile), addTable(*profile)}};
 }
 
-} // namespace celadon
+} // namespace celadon::app

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <CLI/App.hpp>
+#include "app/command.h"
 
-namespace celadon {
+namespace celadon::app {
 
 /// `celadon profile make|table`: scattering profiles and the tables computed from them.
-/// The command runs in the parser's callback; failures are celadon::Error.
-void addProfileCommand(CLI::App& app);
+[[nodiscard]] Command addProfileCommand(CLI::App& root);
 
-} // namespace celadon
+} // namespace celadon::app

@@ -2,6 +2,7 @@
 
 #include "app/command.h"
 #include "app/frame_pattern.h"
+#include "app/option_takers.h"
 #include "renderer/output/image_io.h"
 #include "subedit/errors.h"
 
@@ -31,35 +32,6 @@ constexpr std::array<std::string_view, 4> kBackends{"auto", "raster", "tiled", "
 constexpr std::array<std::string_view, 2> kExitFresnels{"exact", "paper"};
 constexpr std::array<std::string_view, 4> kContexts{"auto", "glfw", "egl", "osmesa"};
 constexpr std::array<std::string_view, 3> kToneMaps{"neutral", "aces", "none"};
-
-/// Takes one of the words into an enum whose values stand in the same order.
-template<typename Enum>
-auto takeChoice(Enum& value, std::span<const std::string_view> words) {
-    return [&value, words](const Argument& argument) {
-        value = static_cast<Enum>(parseChoice(argument, words));
-    };
-}
-
-template<typename Number>
-auto takeNumber(Number& value, const NumberRange& range) {
-    return [&value, range](const Argument& argument) { value = parseNumber(argument, range); };
-}
-
-template<typename Integer>
-auto takeInteger(Integer& value, int least, int most) {
-    return [&value, least, most](const Argument& argument) {
-        value = parseInteger(argument, least, most);
-    };
-}
-
-auto takeVector(std::optional<glm::dvec3>& value) {
-    return [&value](const Argument& argument) { value = parseVector(argument); };
-}
-
-template<typename Text>
-auto takeText(Text& value) {
-    return [&value](const Argument& argument) { value = parseText(argument); };
-}
 
 void addFiles(CLI::App& app, RenderOptions& o) {
     const char* group = "Input and output";

@@ -8,7 +8,7 @@
 #include <charconv>
 #include <vector>
 
-namespace celadon {
+namespace celadon::app {
 
 std::optional<glm::dvec3> parseRgb(const std::string& text) {
     std::vector<double> numbers;
@@ -54,4 +54,4 @@ glm::dvec3 requireRgb(const std::string& option, const std::string& text, double
     return *rgb;
 }
 
-} // namespace celadon
+} // namespace celadon::app

@@ -6,7 +6,7 @@
 #include <string>
 
 /// Numbers given on the command line.
-namespace celadon {
+namespace celadon::app {
 
 /// "0.9,0.7,0.2", or one number for all three channels. Nothing if it is not numbers at all.
 [[nodiscard]] std::optional<glm::dvec3> parseRgb(const std::string& text);
@@ -17,4 +17,4 @@ namespace celadon {
 [[nodiscard]] glm::dvec3 requireRgb(const std::string& option, const std::string& text, double low,
                                     double high);
 
-} // namespace celadon
+} // namespace celadon::app

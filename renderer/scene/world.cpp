@@ -64,24 +64,6 @@ double requirePositive(double value, const char* option) {
     return value;
 }
 
-double chooseMillimetersPerUnit(const Scene& scene, const WorldScale& scale,
-                                double diameterInUnits) {
-    if (scale.millimetersPerUnit && scale.diameterMm) {
-        throw UsageError("--scale and --diameter", "both say how large the model is",
-                         "give one of them");
-    }
-    if (scale.millimetersPerUnit) {
-        return requirePositive(*scale.millimetersPerUnit, "--scale");
-    }
-    if (scale.diameterMm) {
-        return requirePositive(*scale.diameterMm, "--diameter") / diameterInUnits;
-    }
-    if (scene.millimetersPerUnit) {
-        return *scene.millimetersPerUnit;
-    }
-    return kDefaultDiameterMm / diameterInUnits;
-}
-
 int indexOf(std::vector<MaterialPointer>& materials, const MaterialPointer& material) {
     if (!material) {
         return -1;
@@ -113,6 +95,24 @@ void scaleIntoMillimeters(Scene& scene, double unit) {
 }
 
 } // namespace
+
+double chooseMillimetersPerUnit(const Scene& scene, const WorldScale& scale,
+                                double diameterInUnits) {
+    if (scale.millimetersPerUnit && scale.diameterMm) {
+        throw UsageError("--scale and --diameter", "both say how large the model is",
+                         "give one of them");
+    }
+    if (scale.millimetersPerUnit) {
+        return requirePositive(*scale.millimetersPerUnit, "--scale");
+    }
+    if (scale.diameterMm) {
+        return requirePositive(*scale.diameterMm, "--diameter") / diameterInUnits;
+    }
+    if (scene.millimetersPerUnit) {
+        return *scene.millimetersPerUnit;
+    }
+    return kDefaultDiameterMm / diameterInUnits;
+}
 
 World buildWorld(Scene scene, const MaterialPointer& override,
                  const std::vector<MaterialPointer>& namedMaterials,

@@ -41,6 +41,11 @@ struct WorldScale {
     std::optional<double> diameterMm;
 };
 
+/// @param diameterInUnits of the scattering meshes' bounding sphere, in model units, above 0
+/// @throws UsageError: both are given, or one that is no positive number
+[[nodiscard]] double chooseMillimetersPerUnit(const Scene& scene, const WorldScale& scale,
+                                              double diameterInUnits);
+
 /// What scatters (DESIGN section 1): with `override`, every mesh; else the meshes whose look names
 /// a SubEdit file (`namedMaterials[i]` is that of Scene::materials[i], null: opaque); if none does,
 /// every mesh takes `fallback`. Scattering meshes without uvs get one automatic atlas together.

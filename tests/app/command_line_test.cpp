@@ -13,14 +13,20 @@ using test::TemporaryFolder;
 using testing::HasSubstr;
 
 TEST(CommandLine, ShowsHelpOnStdout) {
-    for (const std::vector<std::string>& words :
-         {std::vector<std::string>{"--help"}, {"render", "--help"}, {"compare", "-h"}}) {
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"--help"},
+                                                  {"render", "--help"},
+                                                  {"compare", "-h"},
+                                                  {"profile", "--help"},
+                                                  {"profile", "make", "--help"},
+                                                  {"material", "-h"}}) {
         const ProgramResult result = runInProcess(words);
         EXPECT_EQ(result.exitCode, 0);
         EXPECT_THAT(result.out, HasSubstr("--help"));
         EXPECT_EQ(result.err, "");
     }
     EXPECT_THAT(runInProcess({"render", "--help"}).out, HasSubstr("--view-from"));
+    EXPECT_THAT(runInProcess({"profile", "make", "--help"}).out, HasSubstr("--preset"));
+    EXPECT_THAT(runInProcess({"material", "--help"}).out, HasSubstr("bake"));
 }
 
 TEST(CommandLine, ShowsTheVersion) {
@@ -33,7 +39,13 @@ TEST(CommandLine, WantsACommand) {
     const ProgramResult result = runProgram({});
     EXPECT_EQ(result.exitCode, 2);
     EXPECT_EQ(result.out, "");
-    EXPECT_THAT(result.err, HasSubstr("render"));
+    EXPECT_EQ(result.err,
+              "celadon: command line: no command is given; choose render, profile, material, "
+              "compare, info; see 'celadon --help'\n");
+    const ProgramResult nested = runInProcess({"material"});
+    EXPECT_EQ(nested.exitCode, 2);
+    EXPECT_EQ(nested.err, "celadon material: no command is given; choose bake, info; "
+                          "see 'celadon material --help'\n");
 }
 
 TEST(CommandLine, NamesWhatItDoesNotKnow) {
@@ -54,6 +66,16 @@ TEST(CommandLine, NamesWhatItDoesNotKnow) {
         {{"compare", "a.exr"}, "two pictures"},
         {{"compare", "a", "b", "--metric", "rsme"}, "'rsme'"},
         {{"compare", "a", "b", "--fail-above", "rmse"}, "METRIC=VALUE"},
+        {{"profile", "mkae"}, "'mkae': unknown command; did you mean 'make'?"},
+        {{"material", "--jsno"}, "see 'celadon material --help'"},
+        {{"profile", "make", "--perset", "marble"}, "did you mean '--preset'?"},
+        {{"profile", "make", "--preset"},
+         "--preset: its value is missing; see 'celadon profile make"},
+        {{"profile", "make", "--preset", "marble", "--model", "bipole"}, "--model 'bipole'"},
+        {{"profile", "table"}, "no material"},
+        {{"material", "info"}, "no material"},
+        {{"material", "info", "marble", "more"}, "'more': unexpected argument"},
+        {{"material", "bake", "--segments", "0"}, "--segments"},
         {{"info"}, "no file"},
         {{"info", "--system", "a.obj"}, "--system"},
     };
@@ -82,6 +104,16 @@ TEST(CommandLine, RefusesOutputsBeforeTheWork) {
     EXPECT_EQ(result.exitCode, 1);
     EXPECT_THAT(result.err, HasSubstr("does not exist"));
     EXPECT_EQ(result.errorLines(), 1);
+}
+
+TEST(CommandLine, EveryCommandCanTellWhatItDoes) {
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"profile", "table", "marble", "--verbose"},
+          {"material", "info", "marble", "--verbose"},
+          {"info", "marble", "--verbose"}}) {
+        EXPECT_EQ(runInProcess(words).exitCode, 0);
+    }
+    EXPECT_EQ(runInProcess({"info", "marble"}).exitCode, 0); // no longer verbose
 }
 
 TEST(CommandLine, FailsWhenStdoutCannotBeWritten) {
