@@ -74,6 +74,9 @@ const gl::Texture& SplattingSolver::solve(const SolveInput& input, gl::StageTime
             if (mCollect) {
                 gatherStatistics();
             }
+            if (mObserver) {
+                mObserver();
+            }
         }
     }
     if (mCollect) {
