@@ -105,6 +105,9 @@ const gl::Texture& SplattingSolver::solve(const SolveInput& input, gl::StageTime
                 }
                 gatherStatistics();
             }
+            if (mObserver) {
+                mObserver();
+            }
         }
     }
     if (mCollect) {
