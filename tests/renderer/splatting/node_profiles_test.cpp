@@ -17,8 +17,9 @@
 namespace celadon {
 namespace {
 
-/// One half float per level (11 bits of |ln P| <= 30, rounded once a level), and the lookup's half.
-constexpr double kLogProfileTolerance = 0.03;
+/// Of |ln P|, per rounding: halves have 11 bits, and a driver may cut them off (llvmpipe does).
+/// Once in the material's texture and once a level.
+constexpr double kHalfRounding = 1.0 / 1024.0;
 /// Of a knot spacing: the shader interpolates radii linearly in energy within a segment.
 constexpr double kRadiusTolerance = 0.1;
 
@@ -82,7 +83,8 @@ TEST(NodeProfiles, AreMeansOfTheTexelsBelow) {
                                                  static_cast<double>(subedit::kLogProfileFloor));
                     expected[k] = static_cast<float>(logP);
                     const float value = stored[((k / 3) * nodes + node) * 4 + k % 3];
-                    worstLog = std::max(worstLog, std::abs(static_cast<double>(value) - logP));
+                    worstLog = std::max(worstLog, std::abs(static_cast<double>(value) - logP) /
+                                                      std::abs(logP));
                 }
                 const glm::dvec3 radii = subedit::effectiveRadiusMm(
                     {expected.data(), map.segments, map.maxRadiusMm}, 0.95);
@@ -95,9 +97,10 @@ TEST(NodeProfiles, AreMeansOfTheTexelsBelow) {
             }
         }
         ASSERT_GT(compared, 3);
-        fmt::print("[ measured ] level {}, {} nodes: ln P {:.4f}, R_P {:.4f} knot spacings\n",
-                   level, compared, worstLog, worstRadius);
-        EXPECT_LT(worstLog, kLogProfileTolerance);
+        fmt::print(
+            "[ measured ] level {}, {} nodes: ln P {:.5f} relative, R_P {:.4f} knot spacings\n",
+            level, compared, worstLog, worstRadius);
+        EXPECT_LT(worstLog, kHalfRounding * (level + 1));
         EXPECT_LT(worstRadius, kRadiusTolerance);
     }
 }
