@@ -37,9 +37,6 @@ void refuseUnbuilt(const RenderOptions& options) {
     if (options.backend == Backend::Tiled || options.backend == Backend::Cpu) {
         refuse(std::string("--backend ") + backendName(options.backend));
     }
-    if (options.scheme == Scheme::Hierarchical) {
-        refuse("--scheme hierarchical");
-    }
     if (options.animation || options.timeSeconds) {
         refuse("--animation");
     }
@@ -64,11 +61,19 @@ FrameSettings frameSettings(const RenderOptions& options) {
         break;
     }
     SplattingSettings& splatting = settings.splatting;
+    if (options.scheme == Scheme::Hierarchical) {
+        splatting.scheme = celadon::Scheme::Hierarchical;
+        splatting.energy = 1.0; // far samples are cheap: nothing is cut
+    }
     if (options.quality == Quality::Draft) {
         splatting.irradianceSize = 256;
         splatting.alpha = 8.0;
+        splatting.sampleAngle = 3.0;
+        splatting.fade = 0.3;
     } else if (options.quality == Quality::Final) {
         splatting.irradianceSize = 1024;
+        splatting.sampleAngle = 1.4;
+        splatting.pixelAngle = 0.16;
         settings.shadowSize = 2048;
     }
     splatting.irradianceSize = options.irradianceSize.value_or(splatting.irradianceSize);

@@ -71,7 +71,7 @@ struct RenderOptions {
 
     // Method
     Solver solver = Solver::Splatting;
-    Scheme scheme = Scheme::Paper;
+    Scheme scheme = Scheme::Hierarchical;
     Quality quality = Quality::Default;
     Backend backend = Backend::Auto;
     gl::ContextKind context = gl::ContextKind::Auto;

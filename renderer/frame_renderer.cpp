@@ -109,6 +109,8 @@ FrameRenderer::FrameRenderer(const gl::Context& context, const World& world,
 
 FrameRenderer::~FrameRenderer() = default;
 
+ExitanceSolver& FrameRenderer::solver() { return *mPasses->solver; }
+
 RenderedFrame FrameRenderer::render(const Camera& camera, std::span<const Light> lights) {
     RenderedFrame frame;
     auto* splatting = dynamic_cast<SplattingSolver*>(mPasses->solver.get());

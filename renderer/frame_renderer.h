@@ -48,6 +48,9 @@ public:
     /// @param camera in mm @param lights positions in mm
     [[nodiscard]] RenderedFrame render(const Camera& camera, std::span<const Light> lights);
 
+    /// For tests and for views that explain: the solver and its buffers.
+    [[nodiscard]] ExitanceSolver& solver();
+
 private:
     struct Passes;
     std::unique_ptr<Passes> mPasses;

@@ -10,8 +10,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(location = 0) uniform int level; // k, the finer one
-layout(location = 1) uniform float ringRadius; // paper: start of ring k + 1 in units of R_P for the mean material; see below
-layout(location = 2) uniform float meanRadius; // mean R_P of the materials, mm
+layout(location = 1) uniform float farRadius; // where ring k + 1 begins, for the mean material at mean depth, mm
 
 layout(binding = 0) uniform sampler2D positions;
 layout(binding = 1) uniform sampler2D normals;
@@ -47,7 +46,6 @@ void main() {
     }
     float depth = texelFetch(positions, pixel, level).w;
     float width = pixelWidthMm(depth) * float(2 << level);
-    float farRadius = meanRadius * ringRadius;
     vec3 ownFactor = logFarEnergy(o.material, o.uv, farRadius);
 
     vec2 position = (vec2(pixel) + 0.5) * 0.5 - 0.5;

@@ -16,7 +16,10 @@ flat in vec4 center;
 flat in vec4 flux;
 flat in vec3 diagonal;
 flat in vec3 offDiagonal;
-flat in vec2 ring;
+flat in vec3 ring;
+#ifdef HIERARCHICAL
+flat in vec4 parent;
+#endif
 flat in vec3 nodeTexture;
 
 layout(location = 0) out vec4 exitance;
@@ -44,13 +47,40 @@ float sampleRange() {
 #endif
 }
 
+#ifdef HIERARCHICAL
+// 0 inside the ball, 1 well outside: where the node may stand for its children.
+float outside(float ball, float d) {
+    return ball > 0.0 ? smoothstep(ball, (1.0 + solve.rings.w) * ball, d) : 1.0;
+}
+
+// Weight of the node's part W = a_node (1 - a_parent) times that of ring k, h_k - h_(k+1). Over all nodes
+// above a texel and all rings these sum to one at every distance.
+float weightAt(vec3 position, float d) {
+    float w = outside(ring.z, d);
+    if (parent.w < 1e29) {
+        w *= 1.0 - outside(parent.w, distance(position, parent.xyz));
+    }
+    if (ring.x > 0.0) {
+        w *= smoothstep(0.8 * ring.x, 1.2 * ring.x, d);
+    }
+    if (ring.y > 0.0) {
+        w *= 1.0 - smoothstep(0.8 * ring.y, 1.2 * ring.y, d);
+    }
+    return w;
+}
+#else
+// Hard rings: [low, high).
+float weightAt(vec3 position, float d) { return d >= ring.x && d < ring.y ? 1.0 : 0.0; }
+#endif
+
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 position = texelFetch(positions, pixel, levels.z);
     vec3 offset = position.xyz - center.xyz;
     float d2 = dot(offset, offset);
     float d = sqrt(d2);
-    int taps = position.w > 0.0 && d >= ring.x && d < ring.y ? 1 : 0;
+    float weight = position.w > 0.0 && d < sampleRange() ? weightAt(position.xyz, d) : 0.0;
+    int taps = weight > 0.0 ? 1 : 0;
 
     // Nothing below is done where the ring is missed: loops, unlike branches, are skipped by every driver.
     vec3 sum = vec3(0.0);
@@ -89,7 +119,7 @@ void main() {
 #endif
             kernel += r <= range ? value : vec3(0.0);
         }
-        sum = kernel * flux.rgb / float(count);
+        sum = kernel * flux.rgb * (weight / float(count));
         counted = 1.0;
     }
     if (counted == 0.0) {

@@ -8,7 +8,8 @@ in Splat {
     flat vec4 flux;
     flat vec3 diagonal;
     flat vec3 offDiagonal;
-    flat vec2 ring;
+    flat vec3 ring;
+    flat vec4 parent;
     flat vec3 texture_;
 } splat[];
 
@@ -16,7 +17,10 @@ flat out vec4 center;
 flat out vec4 flux;
 flat out vec3 diagonal;
 flat out vec3 offDiagonal;
-flat out vec2 ring;
+flat out vec3 ring;
+#ifdef HIERARCHICAL
+flat out vec4 parent;
+#endif
 flat out vec3 nodeTexture;
 
 void main() {
@@ -31,6 +35,9 @@ void main() {
         diagonal = splat[0].diagonal;
         offDiagonal = splat[0].offDiagonal;
         ring = splat[0].ring;
+#ifdef HIERARCHICAL
+        parent = splat[0].parent;
+#endif
         nodeTexture = splat[0].texture_;
         EmitVertex();
     }

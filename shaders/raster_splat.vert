@@ -6,7 +6,7 @@
 #include "include/frame.glsl"
 #include "include/light.glsl"
 #include "include/material.glsl"
-#include "include/solve.glsl"
+#include "include/rings.glsl"
 #include "include/sphere_bounds.glsl"
 
 layout(location = 0) in int nodeIndex;
@@ -21,6 +21,7 @@ layout(binding = 4) uniform sampler2D nodeExtents;
 layout(binding = 5) uniform sampler2D nodeKepts;
 layout(binding = 6) uniform sampler2D rangeTable; // Rbar over (log2 T, material)
 layout(binding = 7) uniform sampler2DArray nodeProfiles;
+layout(binding = 27) uniform sampler2D balls;
 layout(binding = 26) uniform sampler2D tileRanges; // view depths in tiles of 8 x 8 pixels and up
 
 out Splat {
@@ -29,7 +30,8 @@ out Splat {
     flat vec4 flux;      // 1e-6 W, what lies beyond R_cut given back; steepest initial slope of -ln P in 1/mm
     flat vec3 diagonal;  // of the covariance, mm^2
     flat vec3 offDiagonal; // xy, xz, yz
-    flat vec2 ring;      // distances [low, high) in mm
+    flat vec3 ring;      // paper: distances [low, high) in mm, 0; hierarchical: R^k, R^(k+1) or 0, own ball
+    flat vec4 parent;    // hierarchical: the parent's position and ball, 1e30: none
     flat vec3 texture_;  // leaf: u, v, material; node: its texel
 } splat;
 
@@ -53,13 +55,35 @@ float ringStart(int k, float R_P, float R_cut, float depth, int material) {
     return start < 0.999 ? R_P * start : R_cut;
 }
 
+// The rectangle of pixels of level k that bounds a sphere's image: low x, low y, high x, high y.
+vec4 boundingPixels(vec3 inView, float radius, int k) {
+    vec2 slopesX;
+    vec2 slopesY;
+    if (frame.eye.w > 0.5) {
+        if (-inView.z + radius <= 0.0) {
+            return vec4(1.0, 1.0, -1.0, -1.0); // wholly behind the eye
+        }
+        slopesX = tangentSlopes(inView.x, -inView.z, radius);
+        slopesY = tangentSlopes(inView.y, -inView.z, radius);
+    } else {
+        slopesX = inView.xx + vec2(-radius, radius);
+        slopesY = inView.yy + vec2(-radius, radius);
+    }
+    vec4 ndc = vec4(slopesX.x, slopesY.x, slopesX.y, slopesY.y) * frame.projection.xyxy;
+    vec4 pixels = (ndc * 0.5 + 0.5) * frame.frameSize.xyxy / float(1 << k);
+    vec2 size = frame.frameSize.zw / float(1 << k);
+    // A representative point may lie anywhere in its pixel: one pixel of margin.
+    return vec4(clamp(pixels.xy - 1.0, vec2(0.0), size), clamp(pixels.zw + 1.0, vec2(0.0), size));
+}
+
 // Whether some pixel within the rectangle (in pixels of level 0) lies between the two view depths.
 bool meetsSurface(vec4 pixels, float nearest, float farthest) {
     float extent = max(pixels.z - pixels.x, pixels.w - pixels.y);
     int mip = clamp(int(ceil(log2(max(extent / 16.0, 1.0)))), 0, textureQueryLevels(tileRanges) - 1);
     float tileSize = float(8 << mip);
     ivec2 low = ivec2(pixels.xy / tileSize);
-    ivec2 high = min(ivec2(pixels.zw / tileSize), textureSize(tileRanges, mip) - 1);
+    // Not textureSize(tileRanges, mip): some drivers take one lane's level for all lanes.
+    ivec2 high = min(ivec2(pixels.zw / tileSize), (textureSize(tileRanges, 0) >> mip) - 1);
     for (int y = low.y; y <= high.y; ++y) {
         for (int x = low.x; x <= high.x; ++x) {
             vec2 range = texelFetch(tileRanges, ivec2(x, y), mip).xy;
@@ -90,8 +114,20 @@ void main() {
     vec3 inView = (frame.view * vec4(position, 1.0)).xyz;
     float depth = max(-inView.z, 1e-3);
 
+    float high = R_cut; // no pair lies beyond
+    splat.parent = vec4(0.0, 0.0, 0.0, 1e30);
+#ifdef HIERARCHICAL
+    float ball = texelFetch(balls, node, level).r;
+    splat.ring = vec3(ringRadius(k, depth), 0.0, ball);
+    if (hasNextRing(k, depth)) {
+        splat.ring.y = ringRadius(k + 1, depth);
+        high = min(high, 1.2 * splat.ring.y);
+    }
+    if (level + 1 < irradianceLevels()) {
+        splat.parent = vec4(texelFetch(nodePositions, node / 2, level + 1).xyz, texelFetch(balls, node / 2, level + 1).r);
+    }
+#else
     float low = 0.0;
-    float high = R_cut;
     if (isMultiresolution()) {
         for (int j = 1; j <= k; ++j) {
             low = max(low, ringStart(j, R_P, R_cut, depth, material));
@@ -101,11 +137,15 @@ void main() {
             high = min(max(low, ringStart(k + 1, R_P, R_cut, depth, material)), R_cut);
         }
     }
+    splat.ring = vec3(low, high, 0.0);
+    if (high <= low) {
+        high = 0.0;
+    }
+#endif
 
     splat.center = vec4(position, covariance.x + covariance.w + extent.y);
     splat.diagonal = vec3(covariance.x, covariance.w, extent.y);
     splat.offDiagonal = vec3(covariance.y, covariance.z, extent.x);
-    splat.ring = vec2(low, high);
 #ifdef LEAF
     splat.texture_ = surfacePoint.xyz;
     float h = materials[material].profile.x / materials[material].profile.y;
@@ -117,28 +157,21 @@ void main() {
 #endif
     splat.flux = vec4(flux, max(slope.r, max(slope.g, slope.b)));
 
-    // The rectangle, in pixels of level k: the ring's sphere reaches no further.
     splat.rectangle = vec4(1.0, 1.0, -1.0, -1.0);
-    if (high > low) {
-        vec2 slopesX;
-        vec2 slopesY;
-        if (frame.eye.w > 0.5) {
-            slopesX = tangentSlopes(inView.x, -inView.z, high);
-            slopesY = tangentSlopes(inView.y, -inView.z, high);
-            if (-inView.z + high <= 0.0) {
-                slopesX = vec2(1.0, -1.0); // wholly behind the eye
-            }
-        } else {
-            slopesX = inView.xx + vec2(-high, high);
-            slopesY = inView.yy + vec2(-high, high);
+    if (high > 0.0) {
+        vec4 pixels = boundingPixels(inView, high, k);
+        float nearest = -inView.z - high;
+        float farthest = -inView.z + high;
+        if (splat.parent.w < 1e29) {
+            vec3 parentInView = (frame.view * vec4(splat.parent.xyz, 1.0)).xyz;
+            float radius = (1.0 + solve.rings.w) * splat.parent.w;
+            vec4 inParent = boundingPixels(parentInView, radius, k);
+            pixels = vec4(max(pixels.xy, inParent.xy), min(pixels.zw, inParent.zw));
+            nearest = max(nearest, -parentInView.z - radius);
+            farthest = min(farthest, -parentInView.z + radius);
         }
-        vec4 ndc = vec4(slopesX.x, slopesY.x, slopesX.y, slopesY.y) * frame.projection.xyxy;
-        vec4 pixels = (ndc * 0.5 + 0.5) * frame.frameSize.xyxy / float(1 << k);
-        vec2 size = frame.frameSize.zw / float(1 << k);
-        // A representative pixel may lie anywhere in its texel: one pixel of margin.
-        pixels = vec4(clamp(pixels.xy - 1.0, vec2(0.0), size), clamp(pixels.zw + 1.0, vec2(0.0), size));
-        if (meetsSurface(pixels * float(1 << k), -inView.z - high, -inView.z + high)) {
-            splat.rectangle = pixels / size.xyxy * 2.0 - 1.0;
+        if (all(lessThan(pixels.xy, pixels.zw)) && meetsSurface(pixels * float(1 << k), nearest, farthest)) {
+            splat.rectangle = pixels * float(1 << k) / frame.frameSize.zwzw * 2.0 - 1.0;
         }
     }
     gl_Position = vec4(0.0);

@@ -3,20 +3,19 @@
 // selected when it is fit, or at level 0, and no ancestor of it is selected (DESIGN 3.2). An
 // ancestor is selected somewhere along the chain exactly when some ancestor is fit.
 //
-// HIERARCHICAL: a node is used where its parent is too close to stand for it; see raster_splat.
-#include "include/blocks.glsl"
+// HIERARCHICAL: a node takes part between its own ball and its parent's (node_ball.comp). Where that
+// touches the ring of the splatting level in question it is selected.
+#include "include/light.glsl"
+#include "include/rings.glsl"
 
-layout(std140, binding = 1) uniform LightUniforms { LightBlock light; };
-layout(std140, binding = 3) uniform SolveUniforms { SolveBlock solve; };
-
-layout(location = 0) uniform ivec2 levelAndWidth; // level, texels in a row of it
+layout(location = 0) uniform ivec3 levelAndWidth; // level, texels in a row of it, splatting level (-1: any)
 
 layout(binding = 0) uniform sampler2D positions;
 layout(binding = 1) uniform sampler2D normals;
 layout(binding = 2) uniform sampler2D fluxes;
 layout(binding = 3) uniform sampler2D extents;
 layout(binding = 4) uniform sampler2D ranges;
-layout(binding = 5) uniform sampler2D kepts;
+layout(binding = 5) uniform sampler2D balls;
 
 flat out int selectedNode; // -1: not selected
 
@@ -38,20 +37,47 @@ bool isFit(ivec2 node, int level) {
     return width * solve.selection.x < radius * cosine;
 }
 
+// Whether the node has weight at some distance within r_s, and within the ring asked for.
+bool takesPart(ivec2 node, int level, int k) {
+    float ball = texelFetch(balls, node, level).r;
+    float r_s = solve.node.x;
+    if (ball >= r_s) {
+        return false;
+    }
+    vec3 position = texelFetch(positions, node, level).xyz;
+    float reach = r_s;
+    if (level + 1 < irradianceLevels()) {
+        float parentBall = texelFetch(balls, node / 2, level + 1).r;
+        if (parentBall <= 0.0) {
+            return false; // the parent stands for it everywhere
+        }
+        float offset = distance(texelFetch(positions, node / 2, level + 1).xyz, position);
+        reach = min(reach, (1.0 + solve.rings.w) * parentBall + offset);
+    }
+    if (k < 0) {
+        return true;
+    }
+    float depth = max(-(frame.view * vec4(position, 1.0)).z, 1e-3);
+    return 0.8 * ringRadius(k, depth) < reach && ringRadius(k, depth) < r_s &&
+           (!hasNextRing(k, depth) || 1.2 * ringRadius(k + 1, depth) > ball);
+}
+
 void main() {
     int level = levelAndWidth.x;
-    int levels = int(solve.rings.y);
     ivec2 node = ivec2(gl_VertexID % levelAndWidth.y, gl_VertexID / levelAndWidth.y);
     selectedNode = -1;
     gl_Position = vec4(0.0);
     if (!isLit(node, level)) {
         return;
     }
-    bool adaptive = solve.energy.y > 0.5;
-    bool selected = level == 0 || (adaptive && isFit(node, level));
-    for (int k = level + 1; selected && adaptive && k < levels; ++k) {
+#ifdef HIERARCHICAL
+    bool selected = takesPart(node, level, levelAndWidth.z);
+#else
+    bool selected = level == 0 || (isAdaptive() && isFit(node, level));
+    for (int k = level + 1; selected && isAdaptive() && k < irradianceLevels(); ++k) {
         selected = !isFit(node >> (k - level), k);
     }
+#endif
     if (selected) {
         selectedNode = gl_VertexID;
     }

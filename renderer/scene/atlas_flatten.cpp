@@ -19,6 +19,8 @@ constexpr double kHole = 0.08;
 /// Projection starts the descent if no more than this part of the area lands upside down.
 constexpr double kProjectable = 0.03;
 constexpr int kRigidIterations = 16;
+/// Of the rigid energy per area: a chart above it will not come within any limits.
+constexpr double kMostStretch = 0.06;
 constexpr int kRescueIterations = 40;
 constexpr int kFinalIterations = 30;
 constexpr double kCoarse = 1e-4; ///< relative gain in energy below which a trial is good enough
@@ -80,8 +82,7 @@ bool embedInCircle(const Surface& surface, const ChartMesh& mesh,
     }
     if (count > 0) {
         std::vector<Eigen::Triplet<double>> entries;
-        Eigen::Matrix<double, Eigen::Dynamic, 2> right =
-            Eigen::Matrix<double, Eigen::Dynamic, 2>::Zero(count, 2);
+        Coordinates right = Coordinates::Zero(count, 2);
         const auto spring = [&](int a, int b, double weight) {
             for (const auto& [i, j] : {std::pair(a, b), std::pair(b, a)}) {
                 if (unknown[i] < 0) {
@@ -110,11 +111,11 @@ bool embedInCircle(const Surface& surface, const ChartMesh& mesh,
         }
         Eigen::SparseMatrix<double> matrix(count, count);
         matrix.setFromTriplets(entries.begin(), entries.end());
-        const Factor factor(matrix);
-        if (factor.info() != Eigen::Success) {
+        const PlanarSolver solver(matrix);
+        if (!solver.isValid()) {
             return false;
         }
-        const Eigen::Matrix<double, Eigen::Dynamic, 2> inside = factor.solve(right);
+        const Coordinates inside = solver.solve(right);
         for (int v = 0; v < vertices; ++v) {
             if (unknown[v] >= 0) {
                 all[v] = inside.row(unknown[v]).transpose();
@@ -188,8 +189,8 @@ bool flattenInto(const Surface& surface, const FlattenLimits& limits, Chart& cha
             return !overlapsItself(mesh, chart.uv); // flat to begin with
         }
     }
-    const Factor factor(laplacian(mesh, rest));
-    if (factor.info() != Eigen::Success) {
+    const PlanarSolver solver(laplacian(mesh, rest));
+    if (!solver.isValid()) {
         return false;
     }
     Planar circle;
@@ -199,21 +200,28 @@ bool flattenInto(const Surface& surface, const FlattenLimits& limits, Chart& cha
         }
         chart.uv = circle;
     }
-    relaxRigid(mesh, rest, factor, kRigidIterations, chart.uv);
-    int iterations = limits.polishIterations;
-    if (!isOriented(mesh, rest, chart.uv)) {
+    const double stretch = relaxRigid(mesh, rest, solver, kRigidIterations, kMostStretch, chart.uv);
+    if (stretch > kMostStretch) {
+        return false;
+    }
+    if (isOriented(mesh, rest, chart.uv)) {
+        measure(surface, rest, chart);
+        if (!within(chart.distortion, limits.distortion)) {
+            relaxSymmetric(mesh, rest, solver, limits.polishIterations, kCoarse, chart.uv);
+            measure(surface, rest, chart);
+        }
+    } else {
         // Start again from a map without fold-over and keep it so.
         if (circle.empty() && !embedInCircle(surface, mesh, rest, area, circle)) {
             return false;
         }
         chart.uv = std::move(circle);
-        iterations = kRescueIterations;
+        relaxSymmetric(mesh, rest, solver, kRescueIterations, kCoarse, chart.uv);
+        if (!isOriented(mesh, rest, chart.uv)) {
+            return false;
+        }
+        measure(surface, rest, chart);
     }
-    relaxSymmetric(mesh, rest, factor, iterations, kCoarse, chart.uv);
-    if (!isOriented(mesh, rest, chart.uv)) {
-        return false;
-    }
-    measure(surface, rest, chart);
     return within(chart.distortion, limits.distortion) && !overlapsItself(mesh, chart.uv);
 }
 
@@ -242,12 +250,12 @@ void polishChart(const Surface& surface, Chart& chart) {
         return;
     }
     const std::vector<RestTriangle> rest = restShapes(surface, chart.mesh);
-    const Factor factor(laplacian(chart.mesh, rest));
-    if (factor.info() != Eigen::Success) {
+    const PlanarSolver solver(laplacian(chart.mesh, rest));
+    if (!solver.isValid()) {
         return;
     }
     Chart polished = chart;
-    relaxSymmetric(chart.mesh, rest, factor, kFinalIterations, kFine, polished.uv);
+    relaxSymmetric(chart.mesh, rest, solver, kFinalIterations, kFine, polished.uv);
     if (isOriented(chart.mesh, rest, polished.uv) && !overlapsItself(chart.mesh, polished.uv)) {
         measure(surface, rest, polished);
         chart = std::move(polished);

@@ -10,8 +10,6 @@
 namespace celadon::atlas {
 namespace {
 
-using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, 2>;
-
 Coordinates toMatrix(const Planar& uv) {
     Coordinates matrix(uv.size(), 2);
     for (std::size_t i = 0; i < uv.size(); ++i) {
@@ -29,9 +27,14 @@ void fromMatrix(const Coordinates& matrix, Planar& uv) {
 Eigen::Matrix2d jacobianAt(const ChartMesh& mesh, const std::vector<RestTriangle>& rest,
                            std::size_t t, const Coordinates& u) {
     const std::array<int, 3>& c = mesh.corners[t];
-    return u.row(c[0]).transpose() * rest[t].gradients.col(0).transpose() +
-           u.row(c[1]).transpose() * rest[t].gradients.col(1).transpose() +
-           u.row(c[2]).transpose() * rest[t].gradients.col(2).transpose();
+    const Eigen::Matrix<double, 2, 3>& g = rest[t].gradients;
+    // The gradients sum to zero: two sides will do.
+    const Eigen::RowVector2d b = u.row(c[1]) - u.row(c[0]);
+    const Eigen::RowVector2d d = u.row(c[2]) - u.row(c[0]);
+    Eigen::Matrix2d J;
+    J << b.x() * g(0, 1) + d.x() * g(0, 2), b.x() * g(1, 1) + d.x() * g(1, 2),
+        b.y() * g(0, 1) + d.y() * g(0, 2), b.y() * g(1, 1) + d.y() * g(1, 2);
+    return J;
 }
 
 double symmetricEnergy(const ChartMesh& mesh, const std::vector<RestTriangle>& rest,
@@ -104,14 +107,14 @@ struct Correction {
 };
 
 /// Two-loop recursion (Nocedal 1980) with the inverse Laplacian in the middle.
-Coordinates quasiNewton(const std::deque<Correction>& history, const Factor& factor,
+Coordinates quasiNewton(const std::deque<Correction>& history, const PlanarSolver& solver,
                         Coordinates gradient) {
     std::vector<double> alphas(history.size());
     for (std::size_t i = history.size(); i-- > 0;) {
         alphas[i] = history[i].rho * dot(history[i].step, gradient);
         gradient -= alphas[i] * history[i].change;
     }
-    Coordinates direction = 0.25 * factor.solve(gradient).eval();
+    Coordinates direction = 0.25 * solver.solve(gradient);
     for (std::size_t i = 0; i < history.size(); ++i) {
         const double beta = history[i].rho * dot(history[i].change, direction);
         direction += (alphas[i] - beta) * history[i].step;
@@ -121,8 +124,10 @@ Coordinates quasiNewton(const std::deque<Correction>& history, const Factor& fac
 
 } // namespace
 
-void relaxRigid(const ChartMesh& mesh, const std::vector<RestTriangle>& rest, const Factor& factor,
-                int maxIterations, Planar& uv) {
+double relaxRigid(const ChartMesh& mesh, const std::vector<RestTriangle>& rest,
+                  const PlanarSolver& solver, int maxIterations, double tolerance, Planar& uv) {
+    constexpr int kWarmUp = 5;
+    constexpr double kHopeless = 3.0;
     Coordinates u = toMatrix(uv);
     Coordinates right(u.rows(), 2);
     double previous = std::numeric_limits<double>::infinity();
@@ -134,7 +139,7 @@ void relaxRigid(const ChartMesh& mesh, const std::vector<RestTriangle>& rest, co
             const Eigen::Matrix2d J = jacobianAt(mesh, rest, t, u);
             const double x = J(0, 0) + J(1, 1);
             const double y = J(1, 0) - J(0, 1);
-            const double norm = std::hypot(x, y);
+            const double norm = std::sqrt(x * x + y * y);
             Eigen::Matrix2d R = Eigen::Matrix2d::Identity(); // the nearest rotation
             if (norm > 0.0) {
                 R << x / norm, -y / norm, y / norm, x / norm;
@@ -146,18 +151,23 @@ void relaxRigid(const ChartMesh& mesh, const std::vector<RestTriangle>& rest, co
                 right.row(mesh.corners[t][k]) += pull.col(k).transpose();
             }
         }
-        // The laplacian holds vertex 0 at the origin.
-        u = factor.solve(right);
-        if (previous - energy < 1e-4 * total + 0.01 * energy) {
+        energy /= total;
+        if (iteration >= kWarmUp && energy > kHopeless * tolerance) {
+            return energy;
+        }
+        u = solver.solve(right); // the laplacian holds vertex 0 at the origin
+        if (previous - energy < 1e-4 + 0.01 * energy) {
+            previous = energy;
             break;
         }
         previous = energy;
     }
     fromMatrix(u, uv);
+    return previous;
 }
 
 void relaxSymmetric(const ChartMesh& mesh, const std::vector<RestTriangle>& rest,
-                    const Factor& factor, int maxIterations, double leastGain, Planar& uv) {
+                    const PlanarSolver& solver, int maxIterations, double leastGain, Planar& uv) {
     constexpr std::size_t kMemory = 6;
     Coordinates u = toMatrix(uv);
     double energy = symmetricEnergy(mesh, rest, u);
@@ -167,11 +177,11 @@ void relaxSymmetric(const ChartMesh& mesh, const std::vector<RestTriangle>& rest
     Coordinates gradient = symmetricGradient(mesh, rest, u);
     std::deque<Correction> history;
     for (int iteration = 0; iteration < maxIterations; ++iteration) {
-        Coordinates direction = quasiNewton(history, factor, gradient);
+        Coordinates direction = quasiNewton(history, solver, gradient);
         double slope = dot(direction, gradient);
         if (!(slope < 0.0)) {
             history.clear();
-            direction = quasiNewton(history, factor, gradient);
+            direction = quasiNewton(history, solver, gradient);
             slope = dot(direction, gradient);
             if (!(slope < 0.0)) {
                 break;

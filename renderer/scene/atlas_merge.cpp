@@ -16,7 +16,7 @@ constexpr FlattenLimits kMergeLimits{{1.10, 1.25, 2.0}, 4};
 constexpr double kLeastShared = 0.10;
 /// A union whose border is longer than that of a disk of its area by more than this is no gain: it
 /// would be hard to paint on and to pack. Charts that are worse already may get no worse.
-constexpr double kMostSpread = 2.6;
+constexpr double kMostSpread = 2.0;
 /// Bounds the work: triangles tried, relative to all.
 constexpr double kEffort = 10.0;
 

@@ -6,19 +6,28 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <random>
 
 namespace celadon::atlas {
 namespace {
 
 /// Grids above this only cost time; gutters are rounded up to its cells.
 constexpr int kLargestGrid = 1024;
-/// How many shapes, largest first, are tried in eight, in four and in two orientations.
+/// How many shapes, largest first, are tried in sixteen, in eight and in four orientations.
+constexpr std::size_t kSixteenWays = 32;
 constexpr std::size_t kEightWays = 96;
 constexpr std::size_t kFourWays = 512;
+/// Once an order fits, other orders are tried at a larger scale, a batch at a time.
+constexpr std::size_t kBatch = 6;
+constexpr std::size_t kFutileBatches = 6;
+constexpr std::size_t kMostReordered = 400; ///< shapes; above, chance evens out
 /// Shapes from this one on start looking where the last one of their size was put.
 constexpr std::size_t kHasty = 192;
 constexpr double kSimilarSize = 0.9;
@@ -166,10 +175,14 @@ public:
         tbb::parallel_for(std::size_t{0}, rank.size(), [&](std::size_t place) {
             const Outline& outline = outlines[rank[place]];
             Shape& shape = mShapes[rank[place]];
-            const int ways = place < kEightWays ? 8 : place < kFourWays ? 4 : 1;
+            const int ways = place < kSixteenWays ? 16
+                             : place < kEightWays ? 8
+                             : place < kFourWays  ? 4
+                                                  : 1;
             const double upright = boxAngle(outline.loops);
             for (int way = 0; way < ways; ++way) {
-                const double turn = way < 4 ? 0.5 * way : 0.5 * way + 0.25;
+                // Quarter turns first, then those between.
+                const double turn = 0.25 * (2 * (way % 4) + (way / 4 % 2) + 0.5 * (way / 8));
                 shape.poses.push_back(makePose(outline, upright + turn * std::numbers::pi));
             }
             shape.area = outline.area;
@@ -178,11 +191,6 @@ public:
         for (const Outline& outline : outlines) {
             mArea += outline.area;
         }
-        mOrder.resize(outlines.size());
-        std::iota(mOrder.begin(), mOrder.end(), 0);
-        std::stable_sort(mOrder.begin(), mOrder.end(), [&](std::size_t a, std::size_t b) {
-            return mShapes[a].extent > mShapes[b].extent;
-        });
     }
 
     /// Scales from the largest thinkable down, by bisection: what fits at a scale nearly always
@@ -193,7 +201,10 @@ public:
             return std::nullopt;
         }
         const double largest = mGrid / std::sqrt(mArea);
-        const auto at = [&](int step) { return packAt(largest * std::pow(kScaleStep, step)); };
+        const auto at = [&](int step) {
+            const double cellsPerUnit = largest * std::pow(kScaleStep, step);
+            return place(stampsAt(cellsPerUnit), 0, cellsPerUnit);
+        };
         int fails = 0;
         int fits = 10;
         std::optional<std::vector<Placement>> best = at(fits);
@@ -214,17 +225,75 @@ public:
                 fails = middle;
             }
         }
+        if (mShapes.size() <= kMostReordered && mShapes.size() > 1) {
+            reorder(largest, fits, *best);
+        }
         return best;
     }
 
 private:
-    [[nodiscard]] std::optional<std::vector<Placement>> packAt(double cellsPerUnit) const {
+    using Stamps = std::vector<std::vector<Stamp>>; ///< shape, pose
+
+    /// Other orders and poses at ever larger scales, until several batches in a row do not fit.
+    void reorder(double largest, int fits, std::vector<Placement>& best) const {
+        unsigned variant = 1;
+        for (std::size_t futile = 0; futile < kFutileBatches;) {
+            const double cellsPerUnit = largest * std::pow(kScaleStep, fits - 1);
+            const Stamps stamps = stampsAt(cellsPerUnit);
+            for (; futile < kFutileBatches; ++futile) {
+                std::array<std::optional<std::vector<Placement>>, kBatch> tries;
+                tbb::parallel_for(std::size_t{0}, kBatch, [&](std::size_t i) {
+                    tries[i] = place(stamps, variant + static_cast<unsigned>(i), cellsPerUnit);
+                });
+                variant += kBatch;
+                const auto found = std::find_if(tries.begin(), tries.end(),
+                                                [](const auto& t) { return t.has_value(); });
+                if (found != tries.end()) {
+                    best = std::move(**found);
+                    --fits;
+                    futile = 0;
+                    break;
+                }
+            }
+        }
+    }
+
+    /// Large ones first; variants other than 0 distort the sizes at random.
+    [[nodiscard]] std::vector<std::size_t> orderBySize(unsigned variant) const {
+        std::mt19937 random(variant);
+        std::vector<double> size(mShapes.size());
+        for (std::size_t i = 0; i < size.size(); ++i) {
+            const double chance = static_cast<double>(random()) / 4294967296.0 - 0.5;
+            const bool byArea = variant % 3 == 2;
+            size[i] = (byArea ? std::sqrt(mShapes[i].area) : mShapes[i].extent) *
+                      (variant == 0 ? 1.0 : std::exp(1.2 * chance));
+        }
+        std::vector<std::size_t> order(mShapes.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::size_t a, std::size_t b) { return size[a] > size[b]; });
+        return order;
+    }
+
+    [[nodiscard]] Stamps stampsAt(double cellsPerUnit) const {
+        Stamps stamps(mShapes.size());
+        tbb::parallel_for(std::size_t{0}, mShapes.size(), [&](std::size_t i) {
+            for (const Pose& pose : mShapes[i].poses) {
+                stamps[i].push_back(makeStamp(pose, cellsPerUnit, mReach));
+            }
+        });
+        return stamps;
+    }
+    [[nodiscard]] std::optional<std::vector<Placement>>
+    place(const Stamps& stamps, unsigned variant, double cellsPerUnit) const {
+        const std::vector<std::size_t> order = orderBySize(variant);
+        std::mt19937 random(~variant);
         std::vector<Placement> placements(mShapes.size());
         Mask taken(mGrid, mGrid);
         int hintRow = 0;
         double hintExtent = std::numeric_limits<double>::infinity();
-        for (std::size_t turn = 0; turn < mOrder.size(); ++turn) {
-            const Shape& shape = mShapes[mOrder[turn]];
+        for (std::size_t turn = 0; turn < order.size(); ++turn) {
+            const Shape& shape = mShapes[order[turn]];
             int firstRow = 0;
             if (turn >= kHasty) {
                 const double extent = std::max(shape.extent * cellsPerUnit, 1.0);
@@ -234,43 +303,37 @@ private:
                 }
                 firstRow = hintRow;
             }
-            std::vector<Stamp> stamps(shape.poses.size());
-            std::vector<std::optional<Eigen::Vector2i>> places(shape.poses.size());
-            const auto tryPose = [&](std::size_t pose) {
-                stamps[pose] = makeStamp(shape.poses[pose], cellsPerUnit, mReach);
-                places[pose] = findPlace(taken, stamps[pose], firstRow, mGrid);
-            };
-            if (shape.poses.size() > 1) {
-                tbb::parallel_for(std::size_t{0}, shape.poses.size(), tryPose);
-            } else {
-                tryPose(0);
-            }
-            std::size_t best = shape.poses.size();
-            int lowestTop = 0;
-            for (std::size_t pose = 0; pose < shape.poses.size(); ++pose) {
-                if (!places[pose]) {
+            // The pose that ends lowest.
+            const Stamp* stamp = nullptr;
+            const Pose* pose = nullptr;
+            Eigen::Vector2i corner(0, 0);
+            int ceiling = mGrid;
+            for (std::size_t i = 0; i < shape.poses.size(); ++i) {
+                // Variants look at half of the poses: the flattest is not always the best.
+                if (variant > 0 && shape.poses.size() > 1 && random() % 2 == 0 &&
+                    (stamp != nullptr || i + 1 < shape.poses.size())) {
                     continue;
                 }
-                const int top = places[pose]->y() + stamps[pose].halo.height();
-                if (best == shape.poses.size() || top < lowestTop) {
-                    best = pose;
-                    lowestTop = top;
+                const Stamp& candidate = stamps[order[turn]][i];
+                if (const auto found = findPlace(taken, candidate, firstRow, ceiling)) {
+                    stamp = &candidate;
+                    pose = &shape.poses[i];
+                    corner = *found;
+                    ceiling = found->y() + candidate.halo.height() - 1;
                 }
             }
-            if (best == shape.poses.size()) {
+            if (stamp == nullptr) {
                 return std::nullopt;
             }
-            const Eigen::Vector2i corner = places[best]->array() + mGutter;
-            taken.add(stamps[best].body, corner.x(), corner.y());
             if (turn >= kHasty) {
-                hintRow = places[best]->y();
+                hintRow = corner.y();
             }
-            const Pose& pose = shape.poses[best];
-            const double scale = stamps[best].scale;
-            Placement& placement = placements[mOrder[turn]];
-            placement.linear = scale / mGrid * pose.rotation;
+            corner.array() += mGutter;
+            taken.add(stamp->body, corner.x(), corner.y());
+            Placement& placement = placements[order[turn]];
+            placement.linear = stamp->scale / mGrid * pose->rotation;
             placement.offset =
-                ((corner.cast<double>() - scale * pose.low).array() + kInset) / mGrid;
+                ((corner.cast<double>() - stamp->scale * pose->low).array() + kInset) / mGrid;
         }
         return placements;
     }
@@ -279,7 +342,6 @@ private:
     std::vector<int> mReach;
     int mGutter; ///< in cells
     std::vector<Shape> mShapes;
-    std::vector<std::size_t> mOrder;
     double mArea = 0.0;
 };
 

@@ -167,12 +167,57 @@ void absorbIslands(const DualGraph& graph, std::vector<int>& labels) {
     }
 }
 
+/// Hands over each triangle whose change of side makes the border shorter: teeth, which the
+/// threshold leaves where a straight line crosses triangles. Every change shortens, so this ends.
+void trimTeeth(const DualGraph& graph, std::vector<int>& labels) {
+    std::vector<int> queue;
+    for (int t = graph.size() - 1; t >= 0; --t) {
+        queue.push_back(t);
+    }
+    while (!queue.empty()) {
+        const int t = queue.back();
+        queue.pop_back();
+        double own = 0.0;   // edges towards the same label
+        double other = 0.0; // edges towards the one label that touches most
+        int label = -1;
+        for (int k = 0; k < 3; ++k) {
+            const int n = graph.neighbors[3 * t + k];
+            if (n < 0) {
+                continue;
+            }
+            if (labels[n] == labels[t]) {
+                own += graph.edgeLengths[3 * t + k];
+                continue;
+            }
+            double towards = 0.0;
+            for (int j = 0; j < 3; ++j) {
+                const int m = graph.neighbors[3 * t + j];
+                towards += m >= 0 && labels[m] == labels[n] ? graph.edgeLengths[3 * t + j] : 0.0;
+            }
+            if (towards > other) {
+                other = towards;
+                label = labels[n];
+            }
+        }
+        if (other <= (1.0 + 1e-9) * own) {
+            continue;
+        }
+        labels[t] = label;
+        for (int k = 2; k >= 0; --k) {
+            if (graph.neighbors[3 * t + k] >= 0) {
+                queue.push_back(graph.neighbors[3 * t + k]);
+            }
+        }
+    }
+}
+
 } // namespace
 
 void smoothBorders(const DualGraph& graph, std::vector<int>& labels) {
     for (int round = 0; round < kRounds; ++round) {
         diffuseRound(graph, labels);
     }
+    trimTeeth(graph, labels);
     absorbIslands(graph, labels);
 }
 

@@ -182,6 +182,33 @@ void pairHalfEdges(std::span<const Mesh* const> meshes, Surface& surface) {
     }
 }
 
+/// A triangle and its own back side close around nothing; joined over their longest edge alone they
+/// can be laid flat together.
+void openFlaps(Surface& surface) {
+    for (int t = 0; t < surface.triangleCount(); ++t) {
+        const std::array<int, 3> twins = {surface.twins[3 * t], surface.twins[3 * t + 1],
+                                          surface.twins[3 * t + 2]};
+        const int other = twins[0] / 3;
+        if (twins[0] < 0 || twins[1] < 0 || twins[2] < 0 || twins[1] / 3 != other ||
+            twins[2] / 3 != other) {
+            continue;
+        }
+        const auto length = [&](int k) {
+            return (surface.positions[surface.triangles[t][(k + 1) % 3]] -
+                    surface.positions[surface.triangles[t][k]])
+                .squaredNorm();
+        };
+        const int longest = length(0) >= length(1) ? (length(0) >= length(2) ? 0 : 2)
+                                                   : (length(1) >= length(2) ? 1 : 2);
+        for (int k = 0; k < 3; ++k) {
+            if (k != longest) {
+                surface.twins[twins[k]] = -1;
+                surface.twins[3 * t + k] = -1;
+            }
+        }
+    }
+}
+
 /// Parts without area (lines, points) would only cost space in the map.
 void dropNegligibleParts(Surface& surface) {
     const int count = surface.triangleCount();
@@ -237,6 +264,7 @@ Surface buildSurface(std::span<const Mesh* const> meshes) {
     normalizePositions(surface);
     collectTriangles(meshes, surface);
     pairHalfEdges(meshes, surface);
+    openFlaps(surface);
     dropNegligibleParts(surface);
     return surface;
 }

@@ -378,7 +378,9 @@ private:
 
 /// Instances cost nothing in the file: bound what they make before making it.
 void checkTotal(const GltfDocument& document, const std::vector<std::size_t>& shown) {
+    constexpr std::uint64_t kMaxVertexReads = 1'000'000'000; // primitives may share large accessors
     std::uint64_t total = 0;
+    std::uint64_t reads = 0;
     for (const std::size_t index : shown) {
         const int mesh = document.model.nodes[index].mesh;
         if (mesh < 0) {
@@ -386,8 +388,13 @@ void checkTotal(const GltfDocument& document, const std::vector<std::size_t>& sh
         }
         for (const tinygltf::Primitive& primitive :
              document.model.meshes[static_cast<std::size_t>(mesh)].primitives) {
-            total += hasTriangles(primitive) ? indexCount(document, primitive) : 0;
-            if (total > kMaxElements * 3) {
+            const auto position = attribute(primitive.attributes, "POSITION");
+            if (!hasTriangles(primitive) || !position) {
+                continue;
+            }
+            total += indexCount(document, primitive);
+            reads += document.model.accessors[static_cast<std::size_t>(*position)].count;
+            if (total > kMaxElements * 3 || reads > kMaxVertexReads) {
                 throw InputError(quoted(document.file),
                                  fmt::format("its nodes show more than {} triangles", kMaxElements),
                                  "simplify the model");

@@ -14,8 +14,8 @@ namespace celadon::loaders {
 [[nodiscard]] std::optional<std::string> decodeDataUri(std::string_view uri);
 
 /// A file named by a relative reference, percent-encoded or not, relative to the folder of `file`;
-/// nothing when it has a scheme or is absolute: a model must not reach for the network, or for
-/// files that it was not shipped with.
+/// nothing when it has a scheme or is absolute: a model must not reach for the network, or name
+/// places of one machine. ".." is allowed: exporters keep pictures beside the model's folder.
 [[nodiscard]] std::optional<std::filesystem::path> resolveUri(const std::filesystem::path& file,
                                                               std::string_view uri);
 

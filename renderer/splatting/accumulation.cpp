@@ -10,19 +10,15 @@ Accumulation::Accumulation(const gl::ShaderLibrary& shaders, int materialCount)
                {{"MATERIAL_COUNT", std::to_string(materialCount)}}) {}
 
 void Accumulation::accumulate(const gl::Texture& exitance, const SplattingBuffer& view,
-                              const GpuMaterials& materials, const PixelWidth& pixelWidth,
-                              double meanDepthMm) const {
+                              std::span<const double> ringStartMm) const {
     const gl::DebugGroup group("accumulation");
     mProgram.use();
     view.positions().bind(0);
     view.normals().bind(1);
     view.surfaces().bind(2);
     for (int level = view.levels() - 2; level >= 0; --level) {
-        const double width = pixelWidth.atDepthMm(meanDepthMm) * (2 << level);
-        const float T = materials.meanRadiusMm() / static_cast<float>(width);
         mProgram.set(0, level);
-        mProgram.set(1, materials.minimalRadius(T));
-        mProgram.set(2, materials.meanRadiusMm());
+        mProgram.set(1, static_cast<float>(ringStartMm[static_cast<std::size_t>(level) + 1]));
         exitance.bind(3);
         exitance.bindImage(0, level, GL_READ_WRITE);
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);

@@ -6,12 +6,13 @@
 namespace celadon {
 
 RasterSplat::RasterSplat(const gl::ShaderLibrary& shaders, const GpuMaterials& materials,
-                         const SplattingBuffer& view)
+                         const SplattingBuffer& view, Scheme scheme)
     : mExitance(gl::Texture::make2d("exitance", GL_RGBA32F, view.paddedSize(), view.levels())) {
     for (int k = 0; k < view.levels(); ++k) {
         mFramebuffers.emplace_back("exitance", std::vector{gl::Attachment{&mExitance, k}});
     }
-    std::vector<gl::ShaderDefine> defines = {{"MATERIAL_COUNT", std::to_string(materials.count())}};
+    std::vector<gl::ShaderDefine> defines = schemeDefines(scheme);
+    defines.push_back({"MATERIAL_COUNT", std::to_string(materials.count())});
     if (materials.isHomogeneous()) {
         defines.push_back({"HOMOGENEOUS", "1"});
     } else {
@@ -31,7 +32,8 @@ void RasterSplat::clear() {
 
 void RasterSplat::splat(int splattingLevel, const SplattingBuffer& view,
                         const IrradianceBuffer& buffer, const NodeProfiles* profiles,
-                        const SampleSelection& selection, const GpuMaterials& materials) {
+                        const NodeBalls* balls, const SampleSelection& selection,
+                        const GpuMaterials& materials) {
     const gl::DebugGroup group("splats");
     gl::PassState state =
         gl::PassState::covering(mFramebuffers[static_cast<std::size_t>(splattingLevel)]);
@@ -51,6 +53,9 @@ void RasterSplat::splat(int splattingLevel, const SplattingBuffer& view,
     view.positions().bind(24);
     view.surfaces().bind(25);
     view.tileRanges().bind(26);
+    if (balls != nullptr) {
+        balls->radii().bind(27);
+    }
     for (int level = 0; level < buffer.levels(); ++level) {
         const gl::Program& program = level > 0 && mNode ? *mNode : mLeaf;
         program.use();

@@ -6,6 +6,7 @@
 #include "renderer/splatting/node_profiles.h"
 #include "renderer/splatting/sample_selection.h"
 #include "renderer/splatting/splatting_buffer.h"
+#include "renderer/splatting/splatting_settings.h"
 
 #include <optional>
 #include <vector>
@@ -18,15 +19,15 @@ namespace celadon {
 class RasterSplat {
 public:
     RasterSplat(const gl::ShaderLibrary& shaders, const GpuMaterials& materials,
-                const SplattingBuffer& view);
+                const SplattingBuffer& view, Scheme scheme);
 
     /// B of every level becomes zero.
     void clear();
     /// Adds the samples of one light view to B of one level of the splatting buffer. The frame,
     /// light, material and solve blocks are bound.
     void splat(int splattingLevel, const SplattingBuffer& view, const IrradianceBuffer& buffer,
-               const NodeProfiles* profiles, const SampleSelection& selection,
-               const GpuMaterials& materials);
+               const NodeProfiles* profiles, const NodeBalls* balls,
+               const SampleSelection& selection, const GpuMaterials& materials);
 
     /// RGBA32F with the levels of the splatting buffer: B^k in W/m^2; alpha counts pairs.
     [[nodiscard]] const gl::Texture& exitance() const { return mExitance; }

@@ -5,10 +5,12 @@
 
 namespace celadon {
 
-SampleSelection::SampleSelection(const gl::ShaderLibrary& shaders, const IrradianceBuffer& buffer)
+SampleSelection::SampleSelection(const gl::ShaderLibrary& shaders, const IrradianceBuffer& buffer,
+                                 Scheme scheme)
     : mNothing(gl::Framebuffer::withoutAttachments("nothing", glm::ivec2(1))),
       mNoAttributes("no attributes"),
-      mProgram("sample selection", shaders, {"sample_selection.vert", "sample_selection.geom"}) {
+      mProgram("sample selection", shaders, {"sample_selection.vert", "sample_selection.geom"},
+               schemeDefines(scheme)) {
     for (int k = 0; k < buffer.levels(); ++k) {
         const glm::ivec2 size = buffer.positions().size2d(k);
         Level level;
@@ -31,7 +33,8 @@ SampleSelection::SampleSelection(const gl::ShaderLibrary& shaders, const Irradia
     }
 }
 
-void SampleSelection::select(const IrradianceBuffer& buffer) {
+void SampleSelection::select(const IrradianceBuffer& buffer, const NodeBalls* balls,
+                             int splattingLevel) {
     const gl::DebugGroup group("sample selection");
     gl::PassState state = gl::PassState::covering(mNothing);
     state.rasterizerDiscard = true;
@@ -42,10 +45,13 @@ void SampleSelection::select(const IrradianceBuffer& buffer) {
     buffer.fluxes().bind(2);
     buffer.extents().bind(3);
     buffer.depthRanges().bind(4);
+    if (balls != nullptr) {
+        balls->radii().bind(5);
+    }
     mNoAttributes.bind();
     for (std::size_t k = 0; k < mLevels.size(); ++k) {
         const Level& level = mLevels[k];
-        mProgram.set(0, glm::ivec2(static_cast<int>(k), level.width));
+        mProgram.set(0, glm::ivec3(static_cast<int>(k), level.width, splattingLevel));
         glBindTransformFeedback(GL_TRANSFORM_FEEDBACK, level.feedback.id());
         glBeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, level.written.id());
         glBeginTransformFeedback(GL_POINTS);

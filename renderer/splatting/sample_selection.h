@@ -5,6 +5,8 @@
 #include "renderer/gl/program.h"
 #include "renderer/gl/vertex_array.h"
 #include "renderer/splatting/irradiance_buffer.h"
+#include "renderer/splatting/node_balls.h"
+#include "renderer/splatting/splatting_settings.h"
 
 #include <cstdint>
 #include <vector>
@@ -16,10 +18,16 @@ namespace celadon {
 
 class SampleSelection {
 public:
-    SampleSelection(const gl::ShaderLibrary& shaders, const IrradianceBuffer& buffer);
+    /// The paper's scheme selects each sample once for all rings. The hierarchical scheme selects,
+    /// for each splatting level, the nodes that have weight somewhere in its ring.
+    static constexpr int kAnyRing = -1;
 
-    /// After buildMips (and NodeProfiles::build). The light and solve blocks are bound.
-    void select(const IrradianceBuffer& buffer);
+    SampleSelection(const gl::ShaderLibrary& shaders, const IrradianceBuffer& buffer, Scheme scheme);
+
+    /// After buildMips, NodeProfiles::build and NodeBalls::build. The frame, light and solve blocks
+    /// are bound. Replaces the last selection.
+    /// @param balls hierarchical only @param splattingLevel hierarchical only, or kAnyRing
+    void select(const IrradianceBuffer& buffer, const NodeBalls* balls, int splattingLevel);
 
     /// Draws a point per selected node of a level, attribute 0: its index y * width + x.
     void draw(int level) const;

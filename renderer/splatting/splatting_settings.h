@@ -3,7 +3,10 @@
 /// Options of the splatting solver (DESIGN sections 3 and 5), with the defaults of the command line.
 namespace celadon {
 
-enum class Scheme { Paper, Hierarchical };
+enum class Scheme {
+    Paper,       ///< Chen et al. 2012 with its slips mended
+    Hierarchical ///< both pyramids at every distance, cross-faded
+};
 
 struct SplattingSettings {
     Scheme scheme = Scheme::Paper;
@@ -16,6 +19,11 @@ struct SplattingSettings {
     double energy = 0.99;      ///< R_cut holds this fraction; 1: R_cut = r_s
     bool adaptive = true;      ///< off: every lit level-0 texel is a sample
     bool multiresolution = true; ///< off: every splat at full resolution
+    // Hierarchical scheme.
+    double sampleAngle = 2.0;    ///< theta_s: spread of a node over the distance it is used from
+    double pixelAngle = 0.2;     ///< theta_p: pixel of a level over the distance where its ring begins
+    double fade = 0.6;           ///< b: width of the cross-fade about a ball, in ball radii
+    double fineSpread = 0.06;    ///< beta: a node this small for its shortest R_P needs no ball
 };
 
 } // namespace celadon

@@ -1,5 +1,6 @@
 #include "renderer/splatting/splatting_solver.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -18,12 +19,15 @@ SplattingSolver::SplattingSolver(const gl::ShaderLibrary& shaders, const GpuMate
     : mSettings(settings),
       mIrradiance(shaders, materials.count(), settings.irradianceSize,
                   settings.adaptive ? settings.irradianceLevels : 1),
-      mSelection(shaders, mIrradiance),
-      mSplat(shaders, materials, view),
+      mSelection(shaders, mIrradiance, settings.scheme),
+      mSplat(shaders, materials, view, settings.scheme),
       mAccumulation(shaders, materials.count()),
       mSolveBlock("solve", sizeof(blocks::SolveBlock), gl::BufferUse::Update) {
     if (!materials.isHomogeneous() && mIrradiance.levels() > 1) {
         mProfiles.emplace(shaders, mIrradiance, materials.count(), materials.nodeSegments());
+    }
+    if (settings.scheme == Scheme::Hierarchical) {
+        mBalls.emplace(shaders, mIrradiance);
     }
 }
 
@@ -32,12 +36,31 @@ void SplattingSolver::writeSolveBlock(const SolveInput& input) {
     blocks::SolveBlock block;
     block.selection = glm::vec4(mSettings.alpha, mSettings.discontinuity * radius, 2.0 * radius, 0.0);
     block.node = glm::vec4(input.materials.largestRadiusMm(),
-                           float(input.materials.nodeSegments()), 0.0f, 0.0f);
-    block.rings = glm::vec4(float(viewLevels()), float(mIrradiance.levels()), 0.0f, 0.0f);
+                           float(input.materials.nodeSegments()), float(mSettings.sampleAngle),
+                           float(mSettings.fineSpread));
+    block.rings = glm::vec4(float(viewLevels()), float(mIrradiance.levels()), float(mSettings.pixelAngle),
+                            float(mSettings.fade));
     block.energy = glm::vec4(mSettings.energy < 1.0 ? 1.0f : 0.0f, mSettings.adaptive ? 1.0f : 0.0f,
                              mSettings.multiresolution ? 1.0f : 0.0f, 0.0f);
     mSolveBlock.write(std::array{block});
     mSolveBlock.bindUniform(blocks::kSolve);
+}
+
+std::vector<double> SplattingSolver::ringStarts(const SolveInput& input) const {
+    const double depth =
+        std::max(glm::dot(input.world.scatteringSphere.center - input.camera.eye, input.camera.frame.forward),
+                 1e-3);
+    const double pixel = input.camera.pixelWidth.atDepthMm(depth);
+    const double R_P = static_cast<double>(input.materials.meanRadiusMm());
+    std::vector<double> starts(static_cast<std::size_t>(viewLevels()), 0.0);
+    for (int k = 1; k < viewLevels(); ++k) {
+        const double width = pixel * (1 << k);
+        starts[static_cast<std::size_t>(k)] =
+            mSettings.scheme == Scheme::Hierarchical
+                ? width / mSettings.pixelAngle
+                : R_P * static_cast<double>(input.materials.minimalRadius(float(R_P / width)));
+    }
+    return starts;
 }
 
 const gl::Texture& SplattingSolver::solve(const SolveInput& input, gl::StageTimer& timer) {
@@ -61,18 +84,29 @@ const gl::Texture& SplattingSolver::solve(const SolveInput& input, gl::StageTime
                 if (mProfiles) {
                     mProfiles->build(mIrradiance, static_cast<float>(mSettings.energy));
                 }
+                if (mBalls) {
+                    mBalls->build(mIrradiance);
+                }
             }
-            {
-                const auto scope = timer.measure("selection");
-                mSelection.select(mIrradiance);
-            }
+            const NodeProfiles* profiles = mProfiles ? &*mProfiles : nullptr;
+            const NodeBalls* balls = mBalls ? &*mBalls : nullptr;
             for (int k = 0; k < viewLevels(); ++k) {
+                if (k == 0 || balls != nullptr) {
+                    const auto scope = timer.measure("selection");
+                    mSelection.select(mIrradiance, balls, k);
+                }
                 const auto scope = timer.measure("splatting " + std::to_string(k));
-                mSplat.splat(k, input.view, mIrradiance, mProfiles ? &*mProfiles : nullptr,
-                             mSelection, input.materials);
+                mSplat.splat(k, input.view, mIrradiance, profiles, balls, mSelection,
+                             input.materials);
             }
             if (mCollect) {
+                if (balls != nullptr) {
+                    mSelection.select(mIrradiance, balls, SampleSelection::kAnyRing);
+                }
                 gatherStatistics();
+            }
+            if (mObserver) {
+                mObserver();
             }
         }
     }
@@ -88,10 +122,7 @@ const gl::Texture& SplattingSolver::solve(const SolveInput& input, gl::StageTime
     }
     {
         const auto scope = timer.measure("accumulation");
-        const double depth =
-            glm::dot(input.world.scatteringSphere.center - input.camera.eye, input.camera.frame.forward);
-        mAccumulation.accumulate(mSplat.exitance(), input.view, input.materials,
-                                 input.camera.pixelWidth, std::max(depth, 1e-3));
+        mAccumulation.accumulate(mSplat.exitance(), input.view, ringStarts(input));
     }
     return mSplat.exitance();
 }

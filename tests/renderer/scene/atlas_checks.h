@@ -12,17 +12,21 @@ void expectWellFormed(std::span<const Mesh* const> meshes, const Atlas& atlas);
 /// Every triangle of sensible shape keeps its orientation, none of them mirrored.
 void expectOriented(std::span<const Mesh* const> meshes, const Atlas& atlas);
 
-/// No point of a fine grid lies inside two triangles.
-void expectNoOverlap(std::span<const Mesh* const> meshes, const Atlas& atlas);
+/// No point of a grid of `resolution` points on a side lies inside two triangles.
+void expectNoOverlap(std::span<const Mesh* const> meshes, const Atlas& atlas, int resolution);
 
 /// At `resolution`, texels touched by different charts are more than `gutter` apart, and as far
 /// from the border.
 void expectGutter(std::span<const Mesh* const> meshes, const Atlas& atlas, int resolution,
                   int gutter);
 
-/// All of the above with the default settings.
-Atlas expectGoodAtlas(std::span<const Mesh* const> meshes, const AtlasSettings& settings = {});
-Atlas expectGoodAtlas(const Mesh& mesh, const AtlasSettings& settings = {});
+/// Small enough to be quick without optimization.
+inline constexpr AtlasSettings kSmallMap{512, 4};
+
+/// All of the above; overlap is looked for at twice the resolution.
+Atlas expectGoodAtlas(std::span<const Mesh* const> meshes,
+                      const AtlasSettings& settings = kSmallMap);
+Atlas expectGoodAtlas(const Mesh& mesh, const AtlasSettings& settings = kSmallMap);
 
 [[nodiscard]] bool sameBytes(const Atlas& a, const Atlas& b);
 

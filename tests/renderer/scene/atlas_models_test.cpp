@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <chrono>
 #include <cstdlib>
+#include <ctime>
 
 namespace celadon {
 namespace {
@@ -32,16 +32,17 @@ TEST_P(AtlasModels, FewChartsLittleDistortionGoodCoverage) {
     GTEST_SKIP() << "minutes without optimization; the generated shapes carry every invariant";
 #endif
     const Mesh mesh = readTestModel(std::string(folder) + "/mesh/" + GetParam().file);
-    const auto start = std::chrono::steady_clock::now();
-    const Atlas atlas = expectGoodAtlas(mesh);
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    // Processor time of all threads: the machine may have other things to do.
+    const std::clock_t start = std::clock();
+    const Atlas atlas = expectGoodAtlas(mesh, AtlasSettings{});
+    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     const AtlasReport& report = atlas.report;
     RecordProperty("charts", report.charts);
     EXPECT_LE(report.charts, GetParam().mostCharts);
     EXPECT_GE(report.coverage, GetParam().leastCoverage);
     EXPECT_LT(report.areaDistortionMean, 1.15);
     EXPECT_LT(report.areaDistortionMax, 3.0);
-    EXPECT_LT(elapsed.count(), 60.0); // with the checks; the atlas itself takes a few seconds
+    EXPECT_LT(seconds, 40.0); // 20 s on two cores, the checks included
 }
 
 INSTANTIATE_TEST_SUITE_P(
