@@ -69,7 +69,7 @@ GpuMaterials::GpuMaterials(std::span<const MaterialPointer> materials, double en
         const glm::ivec2 size(map.width, map.height);
         const glm::ivec3 boxSize(size, map.knots());
         gl::Texture logProfile =
-            gl::Texture::make3d("ln P of " + map.name, GL_RGBA16F, boxSize);
+            gl::Texture::make3d("ln P of " + map.name, GL_RGBA32F, boxSize);
         logProfile.upload(0, knotsAsSlices(map));
         gl::Texture radii = gl::Texture::make2d("radii of " + map.name, GL_RGBA32F, size);
         radii.upload(0, made.radii);

@@ -13,7 +13,7 @@ layout(binding = 0) uniform sampler2D fluxes;
 layout(binding = 1) uniform sampler2D surfaces;
 layout(binding = 2) uniform sampler2DArray profiles; // level 1 and up: mip 0 is level 1
 
-layout(rgba16f, binding = 0) uniform writeonly image2DArray result;
+layout(rgba32f, binding = 0) uniform writeonly image2DArray result;
 
 const float kLogFloor = -30.0;
 

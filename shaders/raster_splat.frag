@@ -97,7 +97,8 @@ void main() {
         float closest2 = max(d2 + variance - q, 0.0);
         float closest = sqrt(closest2);
         float blur = sqrt(q);
-        int count = blur < 0.1 * closest ? 1 : (closest < 3.0 * blur && flux.w * blur > 1.0 ? 24 : 3);
+        bool narrow = blur < 0.1 * closest && flux.w * blur < 0.25;
+        int count = narrow ? 1 : (closest < 3.0 * blur && flux.w * blur > 1.0 ? 24 : 3);
         float range = min(materials[m].profile.x, sampleRange());
         vec3 kernel = vec3(0.0);
         for (int i = 0; i < count; ++i) {

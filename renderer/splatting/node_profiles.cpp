@@ -10,7 +10,7 @@ NodeProfiles::NodeProfiles(const gl::ShaderLibrary& shaders, const IrradianceBuf
                            int materialCount, int segments)
     : mKnots(segments + 1),
       mProfiles(gl::Texture::makeArray(
-          "node profiles", GL_RGBA16F, glm::max(glm::ivec2(buffer.paddedSize() / 2), glm::ivec2(1)),
+          "node profiles", GL_RGBA32F, glm::max(glm::ivec2(buffer.paddedSize() / 2), glm::ivec2(1)),
           segments + 1, std::max(1, buffer.levels() - 1))),
       mProfile("node profiles", shaders, {"node_profile.comp"},
                {{"MATERIAL_COUNT", std::to_string(materialCount)}}),

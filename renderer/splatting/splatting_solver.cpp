@@ -139,8 +139,15 @@ void SplattingSolver::gatherStatistics() {
             }
         }
         const std::vector<std::int32_t> selected = mSelection.readIndices(level);
+        // Hierarchical: nodes share a texel's flux by distance. Close by, it is all with the one
+        // ancestor that has no ball (DESIGN 3.2: the weights sum to one).
+        const std::vector<float> balls =
+            mBalls ? mBalls->radii().readLevel(level) : std::vector<float>();
         mStatistics.samples.selected[static_cast<std::size_t>(level)] += selected.size();
         for (const std::int32_t index : selected) {
+            if (mBalls && balls[static_cast<std::size_t>(index)] > 0.0f) {
+                continue;
+            }
             for (std::size_t c = 0; c < 3; ++c) {
                 mStatistics.flux.selected[c] +=
                     static_cast<double>(flux[static_cast<std::size_t>(index) * 4 + c]) * kWattsPerUnit;

@@ -12,7 +12,7 @@
 namespace celadon::test {
 
 /// Every scheme of the splatting solver: tests of the renderer run once for each.
-inline constexpr Scheme kSchemes[] = {Scheme::Paper};
+inline constexpr Scheme kSchemes[] = {Scheme::Paper, Scheme::Hierarchical};
 
 inline const char* schemeWord(Scheme scheme) {
     return scheme == Scheme::Paper ? "paper" : "hierarchical";
@@ -25,6 +25,9 @@ inline FrameSettings smallFrame(glm::ivec2 size, int irradianceSize,
     settings.size = size;
     settings.splatting.scheme = scheme;
     settings.splatting.irradianceSize = irradianceSize;
+    if (scheme == Scheme::Hierarchical) {
+        settings.splatting.energy = 1.0; // as the command line has it
+    }
     settings.specular = false;
     settings.coverageSamples = 1;
     settings.shadowSize = 64;

@@ -20,11 +20,6 @@ inline constexpr double kSplattingRmse = 1e-2;
 inline constexpr double kSplattingShortRmse = 2e-2;
 /// Mean of splatting over mean of the reference: nothing may be lost or gained systematically.
 inline constexpr double kSplattingMean = 3e-3;
-/// The paper's scheme, which uses coarse rings near silhouettes and takes one sample's profile for
-/// a node that spans several materials: measured 8.8 %, mean 0.974, two cameras 5.5 %.
-inline constexpr double kPaperRmse = 0.1;
-inline constexpr double kPaperMean = 0.03;
-inline constexpr double kPaperCamera = 0.07;
 /// Two drivers on the same frame: they rasterize edges and round halves differently.
 inline constexpr double kBackends = 1e-3;
 
