@@ -110,11 +110,13 @@ RenderStats statsHead(const RenderOptions& options, const FrameSettings& setting
     stats.height = settings.size.y;
     stats.irradianceSize = settings.splatting.irradianceSize;
     stats.irradianceLevels = settings.splatting.adaptive ? settings.splatting.irradianceLevels : 1;
-    stats.splattingLevels = settings.splatting.multiresolution ? settings.splatting.splattingLevels : 1;
+    stats.splattingLevels =
+        settings.splatting.multiresolution ? settings.splatting.splattingLevels : 1;
     return stats;
 }
 
-void writePicture(const RenderOptions& options, const std::filesystem::path& file, FloatImage image) {
+void writePicture(const RenderOptions& options, const std::filesystem::path& file,
+                  FloatImage image) {
     if (imageFormat(file) == ImageFormat::Exr) {
         if (options.background) {
             image = compositeOver(std::move(image), *options.background);
@@ -138,11 +140,13 @@ void explainDarkness(const World& world, const Camera& camera, const RenderedFra
     const CameraView view =
         makeCameraView(camera, options.size.x, options.size.y, world.sceneSphere);
     if (isOutsideView(view, world.sceneSphere)) {
-        log::warning("the object is outside the view: move --view-from or --view-at, or leave both out");
+        log::warning(
+            "the object is outside the view: move --view-from or --view-at, or leave both out");
         return;
     }
     if (!frame.seesScattering) {
-        log::warning("no pixel's center sees a scattering surface: it is hidden, or too small in the view");
+        log::warning(
+            "no pixel's center sees a scattering surface: it is hidden, or too small in the view");
         return;
     }
     double sum = 0.0;
@@ -153,24 +157,28 @@ void explainDarkness(const World& world, const Camera& camera, const RenderedFra
         }
     }
     if (sum <= 0.0) {
-        log::warning("no light reaches the visible surface: check the direction, position and color "
-                     "of the lights");
+        log::warning(
+            "no light reaches the visible surface: check the direction, position and color "
+            "of the lights");
     }
 }
 
 void warnAboutRadius(const World& world, const FrameStats& stats) {
     const EffectiveRadiusRange& radius = stats.effectiveRadius;
-    log::info("effective scattering radius {:.3g} to {:.3g} mm ({:.3g} pixels on average) on an object "
-              "of {:.4g} mm",
-              radius.minMm, radius.maxMm, radius.meanPixels, 2.0 * world.scatteringSphere.radius);
+    log::info(
+        "effective scattering radius {:.3g} to {:.3g} mm ({:.3g} pixels on average) on an object "
+        "of {:.4g} mm",
+        radius.minMm, radius.maxMm, radius.meanPixels, 2.0 * world.scatteringSphere.radius);
     if (radius.meanMm > 2.0 * world.scatteringSphere.radius) {
-        log::warning("the material scatters over {:.3g} mm, further than the object's {:.3g} mm: its "
-                     "size may be meant otherwise (--scale, --diameter)",
-                     radius.meanMm, 2.0 * world.scatteringSphere.radius);
+        log::warning(
+            "the material scatters over {:.3g} mm, further than the object's {:.3g} mm: its "
+            "size may be meant otherwise (--scale, --diameter)",
+            radius.meanMm, 2.0 * world.scatteringSphere.radius);
     } else if (radius.meanPixels < 0.5) {
-        log::warning("the material scatters over {:.3g} mm, {:.2g} of a pixel: the picture will look "
-                     "opaque (--scale, --diameter)",
-                     radius.meanMm, radius.meanPixels);
+        log::warning(
+            "the material scatters over {:.3g} mm, {:.2g} of a pixel: the picture will look "
+            "opaque (--scale, --diameter)",
+            radius.meanMm, radius.meanPixels);
     }
 }
 
@@ -195,7 +203,8 @@ void render(const RenderOptions& options) {
     const bool worldChanges =
         options.sequence || (options.material && hasFrameField(*options.material));
 
-    std::optional<World> world = readWorld(options, frames.first); // bad input is said before GL starts
+    std::optional<World> world =
+        readWorld(options, frames.first); // bad input is said before GL starts
     const std::unique_ptr<gl::Context> context = gl::createContext(options.context);
     log::info("context {}: {}", context->description(), context->renderer());
     RenderStats stats = statsHead(options, settings, *context);

@@ -154,7 +154,8 @@ void addMethod(CLI::App& app, RenderOptions& o) {
               {group, "NAME",
                "splatting, image-reference, surface-reference or path-traced; default splatting"},
               takeChoice(o.solver, kSolvers));
-    addOption(app, "--scheme", {group, "paper|hierarchical", "Scheme of splatting; default hierarchical"},
+    addOption(app, "--scheme",
+              {group, "paper|hierarchical", "Scheme of splatting; default hierarchical"},
               takeChoice(o.scheme, kSchemes));
     addOption(app, "--quality", {group, "draft|default|final", "Sets what is not set below"},
               takeChoice(o.quality, kQualities));

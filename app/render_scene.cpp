@@ -49,9 +49,9 @@ World readWorld(const RenderOptions& options, int frame) {
     std::vector<MaterialPointer> named(scene.materials.size());
     MaterialPointer fallback;
     if (options.material) {
-        const std::string material =
-            hasFrameField(*options.material) ? FramePattern("--material", *options.material).name(frame)
-                                             : *options.material;
+        const std::string material = hasFrameField(*options.material)
+                                         ? FramePattern("--material", *options.material).name(frame)
+                                         : *options.material;
         override = readMaterialArgument(material);
     } else {
         std::map<std::filesystem::path, MaterialPointer> read; // one map per file
@@ -77,12 +77,14 @@ World readWorld(const RenderOptions& options, int frame) {
 }
 
 Camera cameraOf(const RenderOptions& options, const World& world) {
-    const ViewRequest request{options.viewFrom, options.viewAt, options.viewUp, options.fovYDegrees};
+    const ViewRequest request{options.viewFrom, options.viewAt, options.viewUp,
+                              options.fovYDegrees};
     return chooseCamera(world, request,
                         static_cast<double>(options.size.x) / static_cast<double>(options.size.y));
 }
 
-std::vector<Light> lightsOf(const RenderOptions& options, const World& world, const Camera& camera) {
+std::vector<Light> lightsOf(const RenderOptions& options, const World& world,
+                            const Camera& camera) {
     std::vector<Light> lights;
     for (const std::string& text : options.lights) {
         Light light = parseLight(text);

@@ -12,7 +12,8 @@ namespace celadon::app {
 /// A model file or builtin:NAME. @throws InputError, UsageError
 [[nodiscard]] Scene readModel(const std::string& model);
 
-/// A SubEdit file or the name of a shipped one; what is worth knowing about it is logged as warnings.
+/// A SubEdit file or the name of a shipped one; what is worth knowing about it is logged as
+/// warnings.
 [[nodiscard]] MaterialPointer readMaterialArgument(const std::string& nameOrPath);
 
 /// Everything that frame `frame` shows: patterns in model and material are filled in.

@@ -9,8 +9,8 @@
 #include <span>
 
 /// The one seam of the renderer: lit geometry, view and material in, radiant exitance B of every
-/// visible pixel out (Chen et al. 2012, eq. 5). Splatting and each reference is one solver; buffers,
-/// shading and output are shared by all.
+/// visible pixel out (Chen et al. 2012, eq. 5). Splatting and each reference is one solver;
+/// buffers, shading and output are shared by all.
 namespace celadon {
 
 class GpuWorld;
@@ -33,7 +33,8 @@ public:
     /// Levels that the splatting buffer must have.
     [[nodiscard]] virtual int viewLevels() const = 0;
 
-    /// @return B in W/m^2 at pixel centers, RGBA32F, rows from the bottom; valid until the next call
+    /// @return B in W/m^2 at pixel centers, RGBA32F, rows from the bottom; valid until the next
+    /// call
     /// @param timer receives the stages "irradianceBuffer", "splattingBuffer", "selection",
     ///              "splatting N", "accumulation", as far as the solver has them
     virtual const gl::Texture& solve(const SolveInput& input, gl::StageTimer& timer) = 0;

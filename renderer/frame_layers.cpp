@@ -35,8 +35,8 @@ void readFrame(const SplattingBuffer& view, const gl::Texture& exitance, const g
         image.channels.insert(image.channels.end(), kLayerChannels.begin(), kLayerChannels.end());
     }
     const std::size_t channels = image.channels.size();
-    image.pixels.assign(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * channels,
-                        0.0f);
+    image.pixels.assign(
+        static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * channels, 0.0f);
     const glm::ivec3 extent(size, 1);
     const std::vector<float> colors = color.readRegion(0, glm::ivec3(0), extent);
     const std::vector<float> positions = view.positions().readRegion(0, glm::ivec3(0), extent);
@@ -83,9 +83,10 @@ void readFrame(const SplattingBuffer& view, const gl::Texture& exitance, const g
                 std::copy_n(&normals[source], 3, layer + 6);
                 std::copy_n(&surfaces[source], 2, layer + 9);
                 layer[11] = R_P;
-                layer[12] = scatters ? static_cast<float>(
-                                           coarsestLevel(materials, view.levels(), R_P, pixel))
-                                     : 0.0f;
+                layer[12] =
+                    scatters
+                        ? static_cast<float>(coarsestLevel(materials, view.levels(), R_P, pixel))
+                        : 0.0f;
             }
         }
     }

@@ -24,7 +24,8 @@ StageMilliseconds sumStages(const std::vector<gl::StageTime>& stages, int splatt
     for (const gl::StageTime& stage : stages) {
         sum.total += stage.timeMs;
         if (stage.stage.starts_with("splatting ")) {
-            sum.splatting[static_cast<std::size_t>(std::stoi(stage.stage.substr(10)))] += stage.timeMs;
+            sum.splatting[static_cast<std::size_t>(std::stoi(stage.stage.substr(10)))] +=
+                stage.timeMs;
         } else if (stage.stage == "irradianceBuffer") {
             sum.irradianceBuffer += stage.timeMs;
         } else if (stage.stage == "splattingBuffer") {
@@ -59,11 +60,13 @@ struct FrameRenderer::Passes {
           antialiasing(shaders, view) {
         switch (settings.solver) {
         case SolverKind::Splatting:
-            solver = std::make_unique<SplattingSolver>(shaders, materials, view, settings.splatting);
+            solver =
+                std::make_unique<SplattingSolver>(shaders, materials, view, settings.splatting);
             break;
         case SolverKind::ImageReference:
-            solver = std::make_unique<ImageReferenceSolver>(
-                shaders, materials.count(), settings.splatting.irradianceSize, settings.pointSamples);
+            solver = std::make_unique<ImageReferenceSolver>(shaders, materials.count(),
+                                                            settings.splatting.irradianceSize,
+                                                            settings.pointSamples);
             break;
         case SolverKind::SurfaceReference:
             solver = std::make_unique<SurfaceReferenceSolver>(world);
@@ -109,7 +112,9 @@ FrameRenderer::FrameRenderer(const gl::Context& context, const World& world,
 
 FrameRenderer::~FrameRenderer() = default;
 
-ExitanceSolver& FrameRenderer::solver() { return *mPasses->solver; }
+ExitanceSolver& FrameRenderer::solver() {
+    return *mPasses->solver;
+}
 
 RenderedFrame FrameRenderer::render(const Camera& camera, std::span<const Light> lights) {
     RenderedFrame frame;

@@ -53,9 +53,10 @@ GpuMaterials::GpuMaterials(std::span<const MaterialPointer> materials, double en
     : mMapSampler("material map", gl::Filter::Linear, gl::Wrap::Repeat),
       mTableSampler("range table", gl::Filter::Linear) {
     if (materials.size() > static_cast<std::size_t>(kMaxMaterials)) {
-        throw InputError("the scene", std::to_string(materials.size()) +
-                                          " SubEdit materials are more than the " +
-                                          std::to_string(kMaxMaterials) + " that one scene can have",
+        throw InputError("the scene",
+                         std::to_string(materials.size()) +
+                             " SubEdit materials are more than the " +
+                             std::to_string(kMaxMaterials) + " that one scene can have",
                          "let meshes share a material, as one map over their common atlas");
     }
     std::vector<blocks::MaterialEntry> entries;
@@ -68,8 +69,7 @@ GpuMaterials::GpuMaterials(std::span<const MaterialPointer> materials, double en
         const MaterialTables made = makeMaterialTables(map, energy, epsilon);
         const glm::ivec2 size(map.width, map.height);
         const glm::ivec3 boxSize(size, map.knots());
-        gl::Texture logProfile =
-            gl::Texture::make3d("ln P of " + map.name, GL_RGBA32F, boxSize);
+        gl::Texture logProfile = gl::Texture::make3d("ln P of " + map.name, GL_RGBA32F, boxSize);
         logProfile.upload(0, knotsAsSlices(map));
         gl::Texture radii = gl::Texture::make2d("radii of " + map.name, GL_RGBA32F, size);
         radii.upload(0, made.radii);
@@ -97,9 +97,9 @@ GpuMaterials::GpuMaterials(std::span<const MaterialPointer> materials, double en
         mLargestRadiusMm = std::max(mLargestRadiusMm, map.maxRadiusMm);
     }
     mFirstTable.assign(tables.begin(), tables.begin() + static_cast<std::ptrdiff_t>(tableSize));
-    mRangeTable =
-        gl::Texture::make2d("range table", GL_R32F,
-                            glm::ivec2(static_cast<int>(tableSize), static_cast<int>(materials.size())));
+    mRangeTable = gl::Texture::make2d(
+        "range table", GL_R32F,
+        glm::ivec2(static_cast<int>(tableSize), static_cast<int>(materials.size())));
     mRangeTable.upload(0, tables);
     mBlock = gl::Buffer::of("materials", entries);
     mHomogeneous = materials.size() == 1 && materials[0]->isHomogeneous();
@@ -131,9 +131,9 @@ int GpuMaterials::nodeSegments() const {
 }
 
 float GpuMaterials::minimalRadius(float pixelsPerRadius) const {
-    const float position = std::clamp(std::log2(std::max(pixelsPerRadius, 1.0f)) / kLog2TMax, 0.0f,
-                                      1.0f) *
-                           static_cast<float>(mFirstTable.size() - 1);
+    const float position =
+        std::clamp(std::log2(std::max(pixelsPerRadius, 1.0f)) / kLog2TMax, 0.0f, 1.0f) *
+        static_cast<float>(mFirstTable.size() - 1);
     const std::size_t i = std::min(static_cast<std::size_t>(position), mFirstTable.size() - 2);
     const float t = position - static_cast<float>(i);
     return mFirstTable[i] + t * (mFirstTable[i + 1] - mFirstTable[i]);

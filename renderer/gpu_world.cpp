@@ -67,9 +67,9 @@ GpuWorld::LookTexture GpuWorld::addTexture(const World& world, const TextureRefe
     texture.image = addImage(world, reference.image, srgb);
     texture.uvSet = reference.uvSet;
     texture.transform = reference.transform;
-    texture.sampler =
-        gl::Sampler("look", reference.nearest ? gl::Filter::NearestMipmap : gl::Filter::LinearMipmap,
-                    toGl(reference.wrapU), toGl(reference.wrapV));
+    texture.sampler = gl::Sampler(
+        "look", reference.nearest ? gl::Filter::NearestMipmap : gl::Filter::LinearMipmap,
+        toGl(reference.wrapU), toGl(reference.wrapV));
     return texture;
 }
 

@@ -54,7 +54,8 @@ private:
     std::vector<GpuMesh> mMeshes;
     std::vector<Look> mLooks;
     std::vector<gl::Texture> mImages;
-    std::vector<std::pair<int, bool>> mImageKeys; ///< (index in World::images, sRGB) of each of mImages
+    std::vector<std::pair<int, bool>>
+        mImageKeys; ///< (index in World::images, sRGB) of each of mImages
 };
 
 } // namespace celadon

@@ -90,8 +90,9 @@ void fillFarEnergy(const MaterialMap& map, MaterialTables& tables) {
     tbb::parallel_for(0, map.height, [&](int y) {
         for (int x = 0; x < map.width; ++x) {
             const float* logP = map.logProfile.data() + map.index(x, y, 0);
-            const std::size_t texel = static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
-                                      static_cast<std::size_t>(x);
+            const std::size_t texel =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
+                static_cast<std::size_t>(x);
             for (std::size_t c = 0; c < 3; ++c) {
                 const auto product = [&](int k) {
                     const std::size_t i = static_cast<std::size_t>(k) * 3 + c;

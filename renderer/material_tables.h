@@ -4,12 +4,13 @@
 
 #include <vector>
 
-/// What the splatting passes look up of a material besides ln P: radii, kept energy, far energy, and
-/// the range table. Computed on the CPU when a material changes. No GL here.
+/// What the splatting passes look up of a material besides ln P: radii, kept energy, far energy,
+/// and the range table. Computed on the CPU when a material changes. No GL here.
 namespace celadon {
 
 struct MaterialTables {
-    /// [height][width][4]: R_P (energy 0.95, longest channel), R_cut, R_P of the shortest channel, 0; mm
+    /// [height][width][4]: R_P (energy 0.95, longest channel), R_cut, R_P of the shortest channel,
+    /// 0; mm
     std::vector<float> radii;
     /// [height][width][4]: fraction of each channel's energy inside R_cut, 1
     std::vector<float> kept;

@@ -1,8 +1,8 @@
 // One (sample, pixel) pair: B^k(x_o) += mean over the sample's patch of sqrt(P_xo P_xi) times its flux
 // (Chen et al. 2012, eq. 12). The patch has covariance C; along the offset to the pixel it blurs the kernel
 // by q, across it lengthens the distance to d' (DESIGN 3.1: a sample is a patch, not a point). The mean
-// over the disc of radius sqrt(2 q) about d' is taken at three distances, or at 24 points where the
-// disc is wide for the profile; at one where it is narrow. Alpha counts the pairs.
+// over the disc of radius sqrt(2 q) about d' is taken at three distances, as an integral over the distance
+// where the disc is wide for the profile, at one distance where it is narrow. Alpha counts the pairs.
 #include "include/material.glsl"
 #include "include/solve.glsl"
 
@@ -45,6 +45,24 @@ float sampleRange() {
 #else
     return solve.node.x;
 #endif
+}
+
+const int kRadialTaps = 24;
+
+// The mean over a disc of radius R whose center is at distance d, as an integral over the distance r:
+// whole circles up to R - d, then arcs of half angle acos((d^2 + r^2 - R^2) / (2 d r)). Points crowd
+// at both ends, where the arcs begin like a root and the profile is steep. Returns r and its weight.
+vec2 radialTap(int i, float d, float R) {
+    const int kInner = 8;
+    bool inner = d < R && i < kInner;
+    float low = inner ? 0.0 : abs(R - d);
+    float high = inner ? R - d : R + d;
+    int first = d < R && !inner ? kInner : 0;
+    int points = inner ? kInner : kRadialTaps - first;
+    float t = (float(i - first) + 0.5) / float(points);
+    float r = low + (high - low) * (0.5 - 0.5 * cos(3.14159265 * t));
+    float halfAngle = inner ? 3.14159265 : acos(clamp((d * d + r * r - R * R) / max(2.0 * d * r, 1e-20), -1.0, 1.0));
+    return vec2(r, r * halfAngle * sin(3.14159265 * t) * (high - low) / float(points));
 }
 
 #ifdef HIERARCHICAL
@@ -98,15 +116,18 @@ void main() {
         float closest = sqrt(closest2);
         float blur = sqrt(q);
         bool narrow = blur < 0.1 * closest && flux.w * blur < 0.25;
-        int count = narrow ? 1 : (closest < 3.0 * blur && flux.w * blur > 1.0 ? 24 : 3);
+        int count = narrow ? 1 : (closest < 4.0 * blur && flux.w * blur > 1.0 ? kRadialTaps : 3);
         float range = min(materials[m].profile.x, sampleRange());
+        float discRadius = sqrt(2.0) * blur;
         vec3 kernel = vec3(0.0);
+        float total = 0.0;
         for (int i = 0; i < count; ++i) {
             float r2;
-            if (count == 24) {
-                float rho2 = 2.0 * q * (float(i % 4) + 0.5) / 4.0;
-                float phi = 3.14159265 * (float(i / 4) + 0.5) / 6.0;
-                r2 = closest2 + rho2 + 2.0 * sqrt(rho2) * closest * cos(phi);
+            float w = 1.0;
+            if (count == kRadialTaps) {
+                vec2 tap = radialTap(i, closest, discRadius);
+                r2 = tap.x * tap.x;
+                w = tap.y;
             } else if (count == 3) {
                 r2 = closest2 + 0.98 * q + float(i - 1) * 1.7320508 * blur * closest;
             } else {
@@ -118,9 +139,10 @@ void main() {
 #else
             vec3 value = exp(0.5 * (logSampleProfile(r) + logProfile(m, surfacePoint.xy, r)));
 #endif
-            kernel += r <= range ? value : vec3(0.0);
+            kernel += r <= range ? w * value : vec3(0.0);
+            total += w;
         }
-        sum = kernel * flux.rgb * (weight / float(count));
+        sum = kernel * flux.rgb * (weight / max(total, 1e-20));
         counted = 1.0;
     }
     if (counted == 0.0) {

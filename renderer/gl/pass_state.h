@@ -26,7 +26,7 @@ struct PassState {
     glm::bvec4 colorMask{true};
     std::optional<glm::ivec4> scissor;
     bool rasterizerDiscard = false; ///< only transform feedback or buffer stores count
-    int clipDistances = 0; ///< gl_ClipDistance[0 … n-1] are written
+    int clipDistances = 0;          ///< gl_ClipDistance[0 … n-1] are written
 
     /// All of a framebuffer, no depth, no blending.
     [[nodiscard]] static PassState covering(const Framebuffer& framebuffer);

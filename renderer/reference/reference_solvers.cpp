@@ -71,8 +71,7 @@ const gl::Texture& ReferenceSolver::solve(const SolveInput& input, gl::StageTime
         }
     }
     if (!mExitance) {
-        mExitance =
-            gl::Texture::make2d("reference exitance", GL_RGBA32F, input.view.paddedSize());
+        mExitance = gl::Texture::make2d("reference exitance", GL_RGBA32F, input.view.paddedSize());
     }
     mExitance.upload(0, texels);
     return mExitance;

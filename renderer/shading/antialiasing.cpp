@@ -43,7 +43,8 @@ void Antialiasing::resolve(const GpuWorld& world, const Camera& camera,
         // The picture moves against the sample's offset from the pixel's center.
         const CameraView jittered =
             makeCameraView(camera, view.size().x, view.size().y, sceneSphere, -offset);
-        mFrameBlock.write(std::array{makeFrameBlock(jittered, view.size(), view.paddedSize(), 0.0)});
+        mFrameBlock.write(
+            std::array{makeFrameBlock(jittered, view.size(), view.paddedSize(), 0.0)});
         mFrameBlock.bindUniform(blocks::kFrame);
 
         gl::PassState sampleState = gl::PassState::covering(mSampleFramebuffer);

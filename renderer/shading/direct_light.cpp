@@ -8,8 +8,7 @@ namespace celadon {
 DirectLight::DirectLight(const gl::ShaderLibrary& shaders, const SplattingBuffer& view,
                          int shadowSize)
     : mShadowSize(shadowSize),
-      mShadowMap(
-          gl::Texture::make2d("shadow map", GL_DEPTH_COMPONENT32F, glm::ivec2(shadowSize))),
+      mShadowMap(gl::Texture::make2d("shadow map", GL_DEPTH_COMPONENT32F, glm::ivec2(shadowSize))),
       mShadowFramebuffer("shadow map", {}, gl::Attachment{&mShadowMap}),
       mRadiance(gl::Texture::make2d("direct radiance", GL_RGBA32F, view.size())),
       mFramebuffer("direct radiance", {{&mRadiance}}),

@@ -30,7 +30,7 @@ IrradianceBuffer::IrradianceBuffer(const gl::ShaderLibrary& shaders, int materia
       mMip("irradiance mip", shaders, {"irradiance_mip.comp"}),
       mRangeMip("depth range mip", shaders, {"depth_range_mip.comp"}) {
     const glm::ivec2 extent(mPaddedSize);
-    const char* const names[kTargets] = {"positions",   "normals", "flux", "surface points",
+    const char* const names[kTargets] = {"positions",   "normals", "flux",       "surface points",
                                          "covariances", "extents", "kept energy"};
     std::vector<gl::Attachment> colors;
     for (int i = 0; i < kTargets; ++i) {
@@ -39,8 +39,7 @@ IrradianceBuffer::IrradianceBuffer(const gl::ShaderLibrary& shaders, int materia
         colors.push_back({&mTargets[i]});
     }
     mDepth = gl::Texture::make2d("irradiance buffer: depth", GL_DEPTH_COMPONENT32F, extent);
-    mDepthRanges =
-        gl::Texture::make2d("irradiance buffer: depth ranges", GL_RG32F, extent, levels);
+    mDepthRanges = gl::Texture::make2d("irradiance buffer: depth ranges", GL_RG32F, extent, levels);
     mFramebuffer = gl::Framebuffer("irradiance buffer", colors, gl::Attachment{&mDepth});
 }
 

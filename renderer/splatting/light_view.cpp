@@ -47,14 +47,14 @@ LightView describe(const Light& light, int size, const glm::dmat4& view,
     result.block.view = glm::mat4(view);
     result.block.viewProjection = glm::mat4(projection * view);
     const bool directional = light.kind == Light::Kind::Directional;
-    result.block.position =
-        glm::vec4(directional ? glm::vec3(0.0f) : glm::vec3(light.position), directional ? 0.0 : 1.0);
+    result.block.position = glm::vec4(directional ? glm::vec3(0.0f) : glm::vec3(light.position),
+                                      directional ? 0.0 : 1.0);
     result.block.direction = glm::vec4(glm::vec3(light.direction), float(size));
     result.block.color =
         glm::vec4(glm::vec3(light.color), light.kind == Light::Kind::Spot ? 1.0f : 0.0f);
-    result.block.cone = glm::vec4(float(std::cos(light.innerConeRadians)),
-                                  float(std::cos(light.outerConeRadians)), float(widthScale),
-                                  float(widthOffset));
+    result.block.cone =
+        glm::vec4(float(std::cos(light.innerConeRadians)), float(std::cos(light.outerConeRadians)),
+                  float(widthScale), float(widthOffset));
     return result;
 }
 
@@ -69,11 +69,11 @@ LightView directionalView(const Light& light, const BoundingSphere& target,
                           const BoundingSphere& casters, int size) {
     const double halfWidth = std::max(target.radius, 1e-9) * kMargin;
     // The eye stands before every caster, so that depths are positive and 0 can mean background.
-    const double reach = glm::length(casters.center - target.center) + casters.radius + target.radius;
+    const double reach =
+        glm::length(casters.center - target.center) + casters.radius + target.radius;
     const double distance = 1.01 * reach + halfWidth;
     const glm::dvec3 eye = target.center - light.direction * distance;
-    const glm::dmat4 view =
-        glm::lookAt(eye, target.center, anyPerpendicular(light.direction));
+    const glm::dmat4 view = glm::lookAt(eye, target.center, anyPerpendicular(light.direction));
     return describe(light, size, view, orthographic(halfWidth, 0.0, 2.0 * distance), 0.0,
                     2.0 * halfWidth / size);
 }

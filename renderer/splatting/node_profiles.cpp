@@ -9,9 +9,9 @@ namespace celadon {
 NodeProfiles::NodeProfiles(const gl::ShaderLibrary& shaders, const IrradianceBuffer& buffer,
                            int materialCount, int segments)
     : mKnots(segments + 1),
-      mProfiles(gl::Texture::makeArray(
-          "node profiles", GL_RGBA32F, glm::max(glm::ivec2(buffer.paddedSize() / 2), glm::ivec2(1)),
-          segments + 1, std::max(1, buffer.levels() - 1))),
+      mProfiles(gl::Texture::makeArray("node profiles", GL_RGBA32F,
+                                       glm::max(glm::ivec2(buffer.paddedSize() / 2), glm::ivec2(1)),
+                                       segments + 1, std::max(1, buffer.levels() - 1))),
       mProfile("node profiles", shaders, {"node_profile.comp"},
                {{"MATERIAL_COUNT", std::to_string(materialCount)}}),
       mRadii("node radii", shaders, {"node_radii.comp"}) {}

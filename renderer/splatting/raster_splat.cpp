@@ -16,8 +16,9 @@ RasterSplat::RasterSplat(const gl::ShaderLibrary& shaders, const GpuMaterials& m
     if (materials.isHomogeneous()) {
         defines.push_back({"HOMOGENEOUS", "1"});
     } else {
-        mNode = gl::Program("splat of a node", shaders,
-                            {"raster_splat.vert", "raster_splat.geom", "raster_splat.frag"}, defines);
+        mNode =
+            gl::Program("splat of a node", shaders,
+                        {"raster_splat.vert", "raster_splat.geom", "raster_splat.frag"}, defines);
     }
     defines.push_back({"LEAF", "1"});
     mLeaf = gl::Program("splat of a leaf", shaders,

@@ -11,9 +11,9 @@
 #include <optional>
 #include <vector>
 
-/// Step 3, the paper's way (Chen et al. 2012, section 4; DESIGN 3.3): the geometry shader grows each
-/// selected node to a rectangle, the fragment shader evaluates each (sample, pixel) pair, blending
-/// adds up B^k.
+/// Step 3, the paper's way (Chen et al. 2012, section 4; DESIGN 3.3): the geometry shader grows
+/// each selected node to a rectangle, the fragment shader evaluates each (sample, pixel) pair,
+/// blending adds up B^k.
 namespace celadon {
 
 class RasterSplat {

@@ -25,10 +25,9 @@ SampleSelection::SampleSelection(const gl::ShaderLibrary& shaders, const Irradia
         level.written = gl::Handle<QueryTraits>(id);
         level.points = gl::VertexArray("selected nodes");
         level.points.setBuffer(0, level.indices, 4);
-        level.points.setAttribute(0, {.location = 0,
-                                      .components = 1,
-                                      .type = GL_INT,
-                                      .kind = gl::AttributeKind::Integer});
+        level.points.setAttribute(
+            0,
+            {.location = 0, .components = 1, .type = GL_INT, .kind = gl::AttributeKind::Integer});
         mLevels.push_back(std::move(level));
     }
 }

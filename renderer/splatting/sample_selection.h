@@ -22,7 +22,8 @@ public:
     /// for each splatting level, the nodes that have weight somewhere in its ring.
     static constexpr int kAnyRing = -1;
 
-    SampleSelection(const gl::ShaderLibrary& shaders, const IrradianceBuffer& buffer, Scheme scheme);
+    SampleSelection(const gl::ShaderLibrary& shaders, const IrradianceBuffer& buffer,
+                    Scheme scheme);
 
     /// After buildMips, NodeProfiles::build and NodeBalls::build. The frame, light and solve blocks
     /// are bound. Replaces the last selection.

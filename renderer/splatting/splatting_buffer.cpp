@@ -48,9 +48,9 @@ SplattingBuffer::SplattingBuffer(const gl::ShaderLibrary& shaders, int materialC
     // Powers of two, so that every level is covered by the next.
     const glm::uvec2 tiles((mPaddedSize + kTilePx - 1) / kTilePx);
     const glm::ivec2 tileSize(std::bit_ceil(tiles.x), std::bit_ceil(tiles.y));
-    mTileRanges = gl::Texture::make2d("tile ranges", GL_RG32F, tileSize,
-                                      std::bit_width(std::bit_floor(
-                                          static_cast<unsigned>(std::min(tileSize.x, tileSize.y)))));
+    mTileRanges = gl::Texture::make2d(
+        "tile ranges", GL_RG32F, tileSize,
+        std::bit_width(std::bit_floor(static_cast<unsigned>(std::min(tileSize.x, tileSize.y)))));
     const char* const names[kTargets] = {"positions", "normals",     "surface points",
                                          "lobes",     "base colors", "emission"};
     std::vector<gl::Attachment> colors;

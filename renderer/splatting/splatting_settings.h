@@ -1,6 +1,7 @@
 #pragma once
 
-/// Options of the splatting solver (DESIGN sections 3 and 5), with the defaults of the command line.
+/// Options of the splatting solver (DESIGN sections 3 and 5), with the defaults of the command
+/// line.
 namespace celadon {
 
 enum class Scheme {
@@ -10,20 +11,20 @@ enum class Scheme {
 
 struct SplattingSettings {
     Scheme scheme = Scheme::Paper;
-    int irradianceSize = 512;  ///< N, texels on a side of the irradiance buffer
-    int irradianceLevels = 6;  ///< 1: level 0 only
-    int splattingLevels = 5;   ///< 1: full resolution only
-    double alpha = 15.0;       ///< eq. 11
-    double epsilon = 0.01;     ///< eq. 14
+    int irradianceSize = 512;    ///< N, texels on a side of the irradiance buffer
+    int irradianceLevels = 6;    ///< 1: level 0 only
+    int splattingLevels = 5;     ///< 1: full resolution only
+    double alpha = 15.0;         ///< eq. 11
+    double epsilon = 0.01;       ///< eq. 14
     double discontinuity = 0.03; ///< z_0 in bounding sphere radii, eq. 10
-    double energy = 0.99;      ///< R_cut holds this fraction; 1: R_cut = r_s
-    bool adaptive = true;      ///< off: every lit level-0 texel is a sample
+    double energy = 0.99;        ///< R_cut holds this fraction; 1: R_cut = r_s
+    bool adaptive = true;        ///< off: every lit level-0 texel is a sample
     bool multiresolution = true; ///< off: every splat at full resolution
     // Hierarchical scheme.
-    double sampleAngle = 2.0;    ///< theta_s: spread of a node over the distance it is used from
-    double pixelAngle = 0.2;     ///< theta_p: pixel of a level over the distance where its ring begins
-    double fade = 0.6;           ///< b: width of the cross-fade about a ball, in ball radii
-    double fineSpread = 0.06;    ///< beta: a node this small for its shortest R_P needs no ball
+    double sampleAngle = 2.0; ///< theta_s: spread of a node over the distance it is used from
+    double pixelAngle = 0.2;  ///< theta_p: pixel of a level over the distance where its ring begins
+    double fade = 0.6;        ///< b: width of the cross-fade about a ball, in ball radii
+    double fineSpread = 0.06; ///< beta: a node this small for its shortest R_P needs no ball
 };
 
 } // namespace celadon

@@ -34,12 +34,12 @@ SplattingSolver::SplattingSolver(const gl::ShaderLibrary& shaders, const GpuMate
 void SplattingSolver::writeSolveBlock(const SolveInput& input) {
     const double radius = input.world.scatteringSphere.radius;
     blocks::SolveBlock block;
-    block.selection = glm::vec4(mSettings.alpha, mSettings.discontinuity * radius, 2.0 * radius, 0.0);
-    block.node = glm::vec4(input.materials.largestRadiusMm(),
-                           float(input.materials.nodeSegments()), float(mSettings.sampleAngle),
-                           float(mSettings.fineSpread));
-    block.rings = glm::vec4(float(viewLevels()), float(mIrradiance.levels()), float(mSettings.pixelAngle),
-                            float(mSettings.fade));
+    block.selection =
+        glm::vec4(mSettings.alpha, mSettings.discontinuity * radius, 2.0 * radius, 0.0);
+    block.node = glm::vec4(input.materials.largestRadiusMm(), float(input.materials.nodeSegments()),
+                           float(mSettings.sampleAngle), float(mSettings.fineSpread));
+    block.rings = glm::vec4(float(viewLevels()), float(mIrradiance.levels()),
+                            float(mSettings.pixelAngle), float(mSettings.fade));
     block.energy = glm::vec4(mSettings.energy < 1.0 ? 1.0f : 0.0f, mSettings.adaptive ? 1.0f : 0.0f,
                              mSettings.multiresolution ? 1.0f : 0.0f, 0.0f);
     mSolveBlock.write(std::array{block});
@@ -47,9 +47,9 @@ void SplattingSolver::writeSolveBlock(const SolveInput& input) {
 }
 
 std::vector<double> SplattingSolver::ringStarts(const SolveInput& input) const {
-    const double depth =
-        std::max(glm::dot(input.world.scatteringSphere.center - input.camera.eye, input.camera.frame.forward),
-                 1e-3);
+    const double depth = std::max(glm::dot(input.world.scatteringSphere.center - input.camera.eye,
+                                           input.camera.frame.forward),
+                                  1e-3);
     const double pixel = input.camera.pixelWidth.atDepthMm(depth);
     const double R_P = static_cast<double>(input.materials.meanRadiusMm());
     std::vector<double> starts(static_cast<std::size_t>(viewLevels()), 0.0);
@@ -150,7 +150,8 @@ void SplattingSolver::gatherStatistics() {
             }
             for (std::size_t c = 0; c < 3; ++c) {
                 mStatistics.flux.selected[c] +=
-                    static_cast<double>(flux[static_cast<std::size_t>(index) * 4 + c]) * kWattsPerUnit;
+                    static_cast<double>(flux[static_cast<std::size_t>(index) * 4 + c]) *
+                    kWattsPerUnit;
             }
         }
     }

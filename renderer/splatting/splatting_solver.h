@@ -11,8 +11,8 @@
 
 #include <functional>
 #include <optional>
-#include <vector>
 #include <utility>
+#include <vector>
 
 /// Multiresolution splatting (Chen et al. 2012): the four steps, four calls.
 namespace celadon {
@@ -33,7 +33,9 @@ public:
     /// The buffers of the last light view, for tests and for views that explain.
     [[nodiscard]] const IrradianceBuffer& irradianceBuffer() const { return mIrradiance; }
     [[nodiscard]] const SampleSelection& selection() const { return mSelection; }
-    [[nodiscard]] const NodeProfiles* nodeProfiles() const { return mProfiles ? &*mProfiles : nullptr; }
+    [[nodiscard]] const NodeProfiles* nodeProfiles() const {
+        return mProfiles ? &*mProfiles : nullptr;
+    }
     /// Called within solve() for each light view once its samples are selected and splatted.
     void observeLightViews(std::function<void()> observer) { mObserver = std::move(observer); }
     /// Counts of samples and flux are gathered while solving; off by default since it reads back.

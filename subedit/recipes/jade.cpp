@@ -17,8 +17,8 @@ MaterialMap bakeJade(int size, const BakeSettings& settings) {
         const float depth = smoothStep(-0.35f, 0.40f, fractalNoise(warped, 4, 3, 103u));
         const float cloud = smoothStep(0.02f, 0.55f, fractalNoise(warped, 6, 4, 107u));
         const float ridge = std::abs(fractalNoise(warped, 5, 3, 109u));
-        const float vein =
-            smoothStep(0.09f, 0.015f, ridge) * smoothStep(-0.10f, 0.25f, fractalNoise(uv, 5, 2, 113u));
+        const float vein = smoothStep(0.09f, 0.015f, ridge) *
+                           smoothStep(-0.10f, 0.25f, fractalNoise(uv, 5, 2, 113u));
         return mix(mix(mix(green, emerald, depth), pale, cloud), dark, 0.85f * vein);
     };
     return bakeAppearance(evaluate("jade", size, 1.62f, look), settings);
