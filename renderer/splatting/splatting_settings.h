@@ -21,7 +21,7 @@ struct SplattingSettings {
     bool adaptive = true;        ///< off: every lit level-0 texel is a sample
     bool multiresolution = true; ///< off: every splat at full resolution
     // Hierarchical scheme.
-    double sampleAngle = 2.0; ///< theta_s: spread of a node over the distance it is used from
+    double sampleAngle = 1.8; ///< theta_s: spread of a node over the distance it is used from
     double pixelAngle = 0.2;  ///< theta_p: pixel of a level over the distance where its ring begins
     double fade = 0.6;        ///< b: width of the cross-fade about a ball, in ball radii
     double fineSpread = 0.06; ///< beta: a node this small for its shortest R_P needs no ball
