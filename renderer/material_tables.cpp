@@ -1,6 +1,7 @@
 #include "renderer/material_tables.h"
 
 #include "subedit/effective_radius.h"
+#include "subedit/log_linear.h"
 #include "subedit/mean_profile.h"
 #include "subedit/radius_map.h"
 #include "subedit/range_table.h"
@@ -18,15 +19,6 @@ namespace {
 using subedit::MaterialMap;
 
 constexpr double kTinyEnergy = 1e-30;
-
-/// Integral of exp(a + (b - a) t) r dr over the segment [r, r + h], t = (r' - r) / h.
-double segmentEnergy(double a, double b, double r, double h) {
-    const double s = b - a;
-    const bool small = std::abs(s) < 1e-3;
-    const double first = small ? 1.0 + s / 2.0 : std::expm1(s) / s;
-    const double second = small ? 0.5 + s / 3.0 : (std::exp(s) * (s - 1.0) + 1.0) / (s * s);
-    return std::exp(a) * h * (r * first + h * second);
-}
 
 /// Mean of ln P over the texels: [segments + 1][3].
 std::vector<double> meanLogProfile(const MaterialMap& map) {
@@ -101,7 +93,7 @@ void fillFarEnergy(const MaterialMap& map, MaterialTables& tables) {
                 double energy = 0.0;
                 for (int k = knots - 1; k >= 0; --k) {
                     if (k < map.segments) {
-                        energy += segmentEnergy(product(k), product(k + 1), k * h, h);
+                        energy += subedit::pieceEnergy(product(k), product(k + 1), k * h, h);
                     }
                     tables.logFarEnergy[(static_cast<std::size_t>(k) * texels + texel) * 4 + c] =
                         static_cast<float>(std::log(std::max(energy, kTinyEnergy)));
