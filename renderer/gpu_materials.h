@@ -4,6 +4,7 @@
 #include "renderer/gl/sampler.h"
 #include "renderer/gl/texture.h"
 #include "renderer/scene/world.h"
+#include "renderer/shading/fresnel.h"
 
 #include <span>
 #include <vector>
@@ -12,8 +13,6 @@
 namespace celadon {
 
 inline constexpr int kMaxMaterials = 4; ///< as material.glsl unrolls
-
-enum class ExitFresnel { Exact, Paper }; ///< c of DESIGN 1: so that what leaves is B, or 1
 
 class GpuMaterials {
 public:
@@ -34,15 +33,16 @@ public:
     [[nodiscard]] float largestRadiusMm() const { return mLargestRadiusMm; } ///< largest r_s
     /// Knots that node profiles share: r_s the largest, spacing the finest, at most 256 segments.
     [[nodiscard]] int nodeSegments() const;
-    /// Rbar(T) of the first material's table.
-    [[nodiscard]] float minimalRadius(float pixelsPerRadius) const;
+    /// Rbar(T) (eq. 14).
+    [[nodiscard]] float minimalRadius(float pixelsPerRadius, int material = 0) const;
 
 private:
     gl::Buffer mBlock;
     std::vector<gl::Texture> mLogProfiles, mRadii, mKept, mFarEnergy;
     gl::Texture mRangeTable;
     gl::Sampler mMapSampler, mTableSampler;
-    std::vector<float> mFirstTable;
+    std::vector<float> mRangeTables; ///< one row a material
+    std::size_t mTableSize = 0;
     bool mHomogeneous = false;
     float mMeanRadiusMm = 0.0f;
     float mKnotSpacingMm = 0.0f;
