@@ -67,10 +67,10 @@ struct Lanes {
                 _mm256_store_ps(values + k, toFloat(_mm256_cvtepu16_epi32(eight)));
             }
         }
-        [[nodiscard]] Float at(Int segment, Float fraction) const {
-            const Float a = _mm256_i32gather_ps(values, segment, 4);
-            const Float b = _mm256_i32gather_ps(values + 1, segment, 4);
-            return a + fraction * (b - a);
+        /// Value at the start of a segment, and its change to the end.
+        void at(Int segment, Float& from, Float& difference) const {
+            from = _mm256_i32gather_ps(values, segment, 4);
+            difference = _mm256_i32gather_ps(values + 1, segment, 4) - from;
         }
     };
 };

@@ -79,14 +79,15 @@ struct Lanes {
                 }
             }
         }
-        [[nodiscard]] Float at(Int segment, Float fraction) const {
+        /// Value at the start of a segment, and its change to the end.
+        void at(Int segment, Float& from, Float& difference) const {
             if (small) {
-                return _mm512_permutex2var_ps(start[0], segment, start[1]) +
-                       fraction * _mm512_permutex2var_ps(change[0], segment, change[1]);
+                from = _mm512_permutex2var_ps(start[0], segment, start[1]);
+                difference = _mm512_permutex2var_ps(change[0], segment, change[1]);
+                return;
             }
-            const Float a = _mm512_i32gather_ps(segment, values, 4);
-            const Float b = _mm512_i32gather_ps(add(segment, 1), values, 4);
-            return a + fraction * (b - a);
+            from = _mm512_i32gather_ps(segment, values, 4);
+            difference = _mm512_i32gather_ps(add(segment, 1), values, 4) - from;
         }
 
     private:

@@ -85,13 +85,13 @@ struct Lanes {
                 values[k] = static_cast<float>(codes[k]);
             }
         }
-        [[nodiscard]] Float at(Int segment, Float fraction) const {
-            Float out;
+        /// Value at the start of a segment, and its change to the end.
+        void at(Int segment, Float& from, Float& difference) const {
             for (int i = 0; i < kCount; ++i) {
                 const float* v = values + segment[i];
-                out[i] = v[0] + fraction[i] * (v[1] - v[0]);
+                from[i] = v[0];
+                difference[i] = v[1] - v[0];
             }
-            return out;
         }
     };
 };

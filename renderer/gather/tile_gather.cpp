@@ -83,11 +83,14 @@ private:
         if (node.ball < SampleTree::kNeverUsed && nearest < mRangeMm && farthest >= node.ball &&
             (parent == nullptr || parent->ball >= SampleTree::kNeverUsed ||
              parentNearest < (1.0f + mSettings.fade) * parent->ball)) {
+            const gather::Sample* usedParent =
+                parent != nullptr && parent->ball < SampleTree::kNeverUsed ? mParentSample
+                                                                           : nullptr;
             const float low = ringRadius(mLevel, depth);
             const float high = nextRing(depth);
             if (low < mRangeMm && farthest > 0.8f * low &&
                 (high == 0.0f || nearest < 1.2f * high)) {
-                mFound.push_back({&nodes.samples[index], mParentSample, low, high});
+                mFound.push_back({&nodes.samples[index], usedParent, low, high});
             }
         }
         if (node.ball > 0.0f && (node.ball >= SampleTree::kNeverUsed || nearest < fadeEnd)) {
