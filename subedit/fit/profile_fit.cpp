@@ -183,4 +183,64 @@ FittedProfile fitProfile(const RadialCurves& curves, const FitSettings& settings
     return fitted;
 }
 
+namespace {
+
+double rmsLogOutside(const RadialCurve& curve, const FittedProfile& fitted, int channel) {
+    const double h = static_cast<double>(fitted.maxRadiusMm) / fitted.segments;
+    double error = 0.0;
+    double total = 0.0;
+    const std::vector<Sample> samples = sampleCurve(curve, fitted.segments, h);
+    for (std::size_t i = kSamplesPerSegment; i < samples.size(); ++i) {
+        const auto k = static_cast<int>(i / kSamplesPerSegment);
+        const auto knot = [&](int index) {
+            return static_cast<double>(
+                fitted.logProfile[static_cast<std::size_t>(index * 3 + channel)]);
+        };
+        const double stored = knot(k) + (knot(k + 1) - knot(k)) * samples[i].t;
+        error += samples[i].weight * (stored - samples[i].logP) * (stored - samples[i].logP);
+        total += samples[i].weight;
+    }
+    return total > 0.0 ? std::sqrt(error / total) : 0.0;
+}
+
+} // namespace
+
+FitError measureFit(const RadialCurves& curves, const FittedProfile& fitted) {
+    FitError error;
+    error.rmsLog = fitted.rmsLogError;
+    error.albedo = diffuseAlbedo(fitted.view());
+    for (int channel = 0; channel < 3; ++channel) {
+        const RadialCurve& curve = curves[static_cast<std::size_t>(channel)];
+        error.albedo[channel] -= curve.total;
+        if (curve.total <= 0.0) {
+            continue;
+        }
+        error.rmsLogOutside[channel] = rmsLogOutside(curve, fitted, channel);
+        constexpr int kRadii = 128;
+        for (int i = 1; i < kRadii; ++i) {
+            // Denser near the center, where the energy is.
+            const double t = static_cast<double>(i) / kRadii;
+            const double r = static_cast<double>(fitted.maxRadiusMm) * t * t;
+            const double stored = 2.0 * std::numbers::pi * radialEnergy(fitted.view(), r)[channel];
+            error.misplaced[channel] = std::max(
+                error.misplaced[channel], std::abs(stored - curve.energyWithin(r)) / curve.total);
+        }
+    }
+    return error;
+}
+
+FittedProfile fitProfileWithin(const RadialCurves& curves, double tolerance, FitSettings settings) {
+    FittedProfile fitted;
+    for (const int segments : {4, 6, 8, 12, 16, 20, 24, 32, 40, 48, 64, 80, 96, 128}) {
+        settings.segments = segments;
+        fitted = fitProfile(curves, settings);
+        const FitError error = measureFit(curves, fitted);
+        const auto largest = [](const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); };
+        if (largest(error.rmsLogOutside) <= tolerance && largest(error.misplaced) <= tolerance) {
+            break;
+        }
+    }
+    return fitted;
+}
+
 } // namespace celadon::subedit
