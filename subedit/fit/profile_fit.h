@@ -54,9 +54,16 @@ struct FitError {
 /// r_s that `settings` ask for with these curves, mm.
 [[nodiscard]] double chooseMaxRadiusMm(const RadialCurves& curves, const FitSettings& settings);
 
+/// How a curve that is infinite at r = 0 is fitted; others are the same either way.
+enum class PeakFit {
+    Apart,  ///< the knots but the first look at what lies outside of the first segment only
+    Blended ///< all look at everything, and ring a little beside the peak; of materials from maps
+};
+
 /// The same for one channel.
 /// @param logKnots segments + 1 values are written
 /// @return         rms error of ln P
-double fitChannel(const RadialCurve& curve, int segments, double maxRadiusMm, double* logKnots);
+double fitChannel(const RadialCurve& curve, int segments, double maxRadiusMm, double* logKnots,
+                  PeakFit peak = PeakFit::Apart);
 
 } // namespace celadon::subedit
