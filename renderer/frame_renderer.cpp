@@ -50,7 +50,7 @@ struct FrameRenderer::Passes {
           timer(glContext),
           gpuWorld(theWorld),
           materials(theWorld.materials, theSettings.splatting.energy, theSettings.splatting.epsilon,
-                    theSettings.exitFresnel),
+                    theSettings.exitFresnel, theSettings.splatting.rangeTable),
           view(shaders, materials.count(), theSettings.size,
                theSettings.solver == SolverKind::Splatting
                    ? SplattingSolver::viewLevels(theSettings.splatting)
