@@ -177,7 +177,7 @@ std::string_view selectionStepName(const SelectionStep& step) {
 WeightMask select(const MaterialMap& map, const Surface& surface, const WeightMask& selection,
                   const SelectionStep& step, SelectMode mode) {
     WeightMask result = std::visit(StepVisitor{map, surface, selection, mode}, step);
-    result.dropZeroTiles();
+    result.compact(selection);
     return result;
 }
 
