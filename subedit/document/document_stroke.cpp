@@ -54,15 +54,20 @@ void Document::beginStroke(StrokeCommand stroke) {
     CELADON_ASSERT(!isStrokeOpen());
     const std::vector<StrokePoint> path = std::exchange(stroke.path, {});
     mStroke = std::make_unique<OpenStroke>(*this, std::move(stroke));
-    for (const StrokePoint& point : path) {
-        addStrokePoint(point);
+    try {
+        for (const StrokePoint& point : path) {
+            addStrokePoint(point);
+        }
+    } catch (...) {
+        cancelStroke();
+        throw;
     }
 }
 
 void Document::addStrokePoint(const StrokePoint& point) {
     CELADON_ASSERT(isStrokeOpen());
+    mStroke->dabs.add(point); // may refuse it
     mStroke->command.path.push_back(point);
-    mStroke->dabs.add(point);
 
     std::vector<std::size_t> texels;
     for (const Surface::Texel texel : mStroke->dabs.takeChanged()) {

@@ -5,6 +5,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -116,9 +117,18 @@ using EditOperator = std::variant<ScaleAlbedo, SetAlbedo, Tint, ScaleRange, SetR
                                   Gradient, Heterogeneity, Clone, TransferPattern>;
 
 /// A texel's result depends on that texel alone.
-[[nodiscard]] bool isLocal(const EditOperator& op);
+[[nodiscard]] inline bool isLocal(const EditOperator& op) {
+    return !std::holds_alternative<Heterogeneity>(op) && !std::holds_alternative<Clone>(op) &&
+           !std::holds_alternative<TransferPattern>(op);
+}
 
-/// As in files: "scale-albedo", "mix", ...
-[[nodiscard]] std::string_view operatorName(const EditOperator& op);
+/// As in files, in the order of EditOperator.
+inline constexpr std::array<std::string_view, std::variant_size_v<EditOperator>> kOperatorNames{
+    "scale-albedo", "set-albedo", "tint",          "scale-range", "set-range",       "set-shape",
+    "mix",          "gradient",   "heterogeneity", "clone",       "transfer-pattern"};
+
+[[nodiscard]] inline std::string_view operatorName(const EditOperator& op) {
+    return kOperatorNames[op.index()];
+}
 
 } // namespace celadon::subedit

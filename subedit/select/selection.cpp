@@ -11,7 +11,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
 
 namespace celadon::subedit {
 
@@ -167,12 +166,6 @@ struct StepVisitor {
 };
 
 } // namespace
-
-std::string_view selectionStepName(const SelectionStep& step) {
-    constexpr std::array<std::string_view, std::variant_size_v<SelectionStep>> kNames{
-        "all", "none", "invert", "stroke", "similar", "propagate", "grow", "shrink", "feather"};
-    return kNames[step.index()];
-}
 
 WeightMask select(const MaterialMap& map, const Surface& surface, const WeightMask& selection,
                   const SelectionStep& step, SelectMode mode) {

@@ -6,6 +6,7 @@
 #include "subedit/select/propagation.h"
 #include "subedit/select/weight_mask.h"
 
+#include <array>
 #include <optional>
 #include <string_view>
 #include <variant>
@@ -60,12 +61,19 @@ using SelectionStep =
     std::variant<SelectAll, SelectNone, InvertSelection, SelectStroke, SelectSimilar, Propagation,
                  GrowSelection, ShrinkSelection, FeatherSelection>;
 
-/// As in files: "all", "none", "invert", "stroke", "similar", "propagate", "grow", "shrink",
-/// "feather".
-[[nodiscard]] std::string_view selectionStepName(const SelectionStep& step);
+/// As in files, in the order of SelectionStep.
+inline constexpr std::array<std::string_view, std::variant_size_v<SelectionStep>>
+    kSelectionStepNames{"all",       "none", "invert", "stroke", "similar",
+                        "propagate", "grow", "shrink", "feather"};
+
+[[nodiscard]] inline std::string_view selectionStepName(const SelectionStep& step) {
+    return kSelectionStepNames[step.index()];
+}
 
 /// How a stroke, similarity or propagation joins what is selected.
 enum class SelectMode { Replace, Add, Subtract, Intersect };
+inline constexpr std::array<std::string_view, 4> kSelectModeNames{"replace", "add", "subtract",
+                                                                  "intersect"};
 
 /// The selection after a step.
 /// @param mode of those steps that find texels; the others act on the whole selection
