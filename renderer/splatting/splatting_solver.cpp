@@ -91,6 +91,9 @@ const gl::Texture& SplattingSolver::solve(const SolveInput& input, gl::StageTime
             const NodeProfiles* profiles = mProfiles ? &*mProfiles : nullptr;
             const NodeBalls* balls = mBalls ? &*mBalls : nullptr;
             for (int k = 0; k < viewLevels(); ++k) {
+                if (input.isInterrupted()) {
+                    return mSplat.exitance();
+                }
                 if (k == 0 || balls != nullptr) {
                     const auto scope = timer.measure("selection");
                     mSelection.select(mIrradiance, balls, k);
