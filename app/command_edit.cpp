@@ -117,6 +117,7 @@ void edit(EditOptions o) {
             request.material.empty() ? std::nullopt : std::optional(request.material);
         return readWorld(options, 0);
     };
+    e.services.isPaintable = !e.viewOnly;
     e.place = [scene, exposure = o.exposureEv](ui::Session& session) {
         RenderOptions options = scene;
         options.size = {static_cast<int>(1000.0 * session.aspect), 1000};

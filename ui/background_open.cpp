@@ -14,11 +14,11 @@ void BackgroundOpen::start(const OpenRequest& request) {
     mRequest = request;
     mIsWanted = true;
     mStart = std::chrono::steady_clock::now();
-    mFuture = std::async(std::launch::async, [request, read = mSession.services().readWorld] {
+    mFuture = std::async(std::launch::async, [request, services = mSession.services()] {
         struct Wake {
             ~Wake() { Window::wake(); }
         } const wake;
-        return read(request);
+        return prepareScene(services.readWorld(request), services.isPaintable);
     });
 }
 
@@ -32,9 +32,9 @@ bool BackgroundOpen::poll() {
         return false;
     }
     try {
-        World world = mFuture.get();
+        OpenedScene scene = mFuture.get();
         if (mIsWanted) {
-            mSession.adopt(mRequest, std::move(world));
+            mSession.adopt(mRequest, std::move(scene));
             mSession.dispatcher().announce(
                 {"file.open", {{"model", mRequest.model}, {"material", mRequest.material}}});
         }

@@ -22,14 +22,14 @@ public:
     [[nodiscard]] bool isRunning() const { return mFuture.valid() && mIsWanted; }
     [[nodiscard]] const OpenRequest& request() const { return mRequest; }
     [[nodiscard]] double seconds() const;
-    /// Adopts a world that is ready; failures become notices. @return whether something changed
+    /// Adopts a scene that is ready; failures become notices. @return whether something changed
     bool poll();
 
 private:
     Session& mSession;
     OpenRequest mRequest;
     std::optional<OpenRequest> mNext; ///< asked for while another was being read
-    std::future<World> mFuture;
+    std::future<OpenedScene> mFuture;
     bool mIsWanted = false;
     std::chrono::steady_clock::time_point mStart;
 };

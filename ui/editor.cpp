@@ -8,6 +8,7 @@
 #include "ui/picture_worker.h"
 #include "ui/recorder.h"
 #include "ui/replayer.h"
+#include "ui/shortcuts.h"
 #include "ui/viewport.h"
 #include "ui/viewport_tools.h"
 #include "ui/window.h"
@@ -86,6 +87,14 @@ Editor::Editor(const EditorOptions& options)
         }
     }
     mActions.open = [this](const std::string& model) { mOpen.start({model, {}}); };
+    mActions.putOn = [this](const std::string& material) {
+        mOpen.start({mSession.opened().model, material});
+    };
+    mActions.save = [this] {
+        if (mSession.materialFile) {
+            mSession.perform({"file.save", {{"file", mSession.materialFile->string()}}});
+        }
+    };
     mActions.toggleFullScreen = [this] { mWindow.toggleFullScreen(); };
     mActions.quit = [this] { mShouldClose = true; };
 }
@@ -193,41 +202,120 @@ void Editor::handleInput() {
         }
         mTools.handle(event, mViewport.rect(), io.WantCaptureMouse && !mTools.isDragging());
     }
+    mTools.hover({static_cast<double>(io.MousePos.x), static_cast<double>(io.MousePos.y)},
+                 io.WantCaptureMouse);
 }
 
 void Editor::handleKey(const InputEvent& event) {
-    const bool control = (event.modifiers & GLFW_MOD_CONTROL) != 0;
-    switch (event.button) {
-    case GLFW_KEY_H:
+    const Shortcut* const shortcut = findShortcut(event.button, event.modifiers);
+    if (shortcut == nullptr) {
+        return;
+    }
+    const auto look = [this](const char* name) {
+        mSession.perform({"camera.view", {{"name", name}}});
+    };
+    const auto turn = [this](double azimuth, double elevation) {
+        mSession.perform({"camera.orbit", {{"azimuth", azimuth}, {"elevation", elevation}}});
+    };
+    const auto resize = [this](double factor) {
+        const double radius = static_cast<double>(mSession.paint.brush.radiusMm);
+        mSession.perform({"brush.change", {{"radius", radius * factor}}});
+    };
+    constexpr double kTurn = 15.0;
+    constexpr double kResize = 1.15;
+    switch (shortcut->action) {
+    case Action::Help:
+        mLayout.helpShown = !mLayout.helpShown;
+        break;
+    case Action::Panels:
         mLayout.panelsShown = !mLayout.panelsShown;
         break;
-    case GLFW_KEY_F11:
+    case Action::FullScreen:
         mWindow.toggleFullScreen();
         break;
-    case GLFW_KEY_Q:
-        mShouldClose = mShouldClose || control;
+    case Action::Quit:
+        mActions.quit();
         break;
-    case GLFW_KEY_KP_1:
-        mSession.perform({"camera.view", {{"name", control ? "back" : "front"}}});
+    case Action::Undo:
+        mSession.perform({"edit.undo"});
         break;
-    case GLFW_KEY_KP_3:
-        mSession.perform({"camera.view", {{"name", control ? "left" : "right"}}});
+    case Action::Redo:
+        mSession.perform({"edit.redo"});
         break;
-    case GLFW_KEY_KP_7:
-        mSession.perform({"camera.view", {{"name", control ? "bottom" : "top"}}});
+    case Action::Swap:
+        mSession.perform({"profile.swap"});
         break;
-    case GLFW_KEY_KP_0:
-        mSession.perform({"camera.view", {{"name", "initial"}}});
+    case Action::Pick:
+        if (const auto hit = mTools.pick(mTools.cursor(), mViewport.rect());
+            hit && hit->material >= 0) {
+            mSession.perform(
+                {"profile.pick", {{"material", hit->material}, {"uv", {hit->uv.x, hit->uv.y}}}});
+        }
         break;
-    case GLFW_KEY_KP_5:
+    case Action::Radius:
+        mTools.beginAdjust(ViewportTools::Adjust::Radius);
+        break;
+    case Action::Strength:
+        mTools.beginAdjust(ViewportTools::Adjust::Strength);
+        break;
+    case Action::Smaller:
+        resize(1.0 / kResize);
+        break;
+    case Action::Larger:
+        resize(kResize);
+        break;
+    case Action::Frame:
+        mSession.perform({"camera.frame", {{"aspect", mSession.aspect}}});
+        break;
+    case Action::Front:
+        look("front");
+        break;
+    case Action::Right:
+        look("right");
+        break;
+    case Action::Top:
+        look("top");
+        break;
+    case Action::Back:
+        look("back");
+        break;
+    case Action::Left:
+        look("left");
+        break;
+    case Action::Bottom:
+        look("bottom");
+        break;
+    case Action::Initial:
+        look("initial");
+        break;
+    case Action::Projection:
         mSession.perform({"camera.projection",
                           {{"orthographic", !mSession.camera.orthographicHeight.has_value()}}});
         break;
-    case GLFW_KEY_HOME:
-    case GLFW_KEY_KP_DECIMAL:
-        mSession.perform({"camera.frame", {{"aspect", mSession.aspect}}});
+    case Action::TurnLeft:
+        turn(kTurn, 0.0);
         break;
-    default:
+    case Action::TurnRight:
+        turn(-kTurn, 0.0);
+        break;
+    case Action::TurnUp:
+        turn(0.0, kTurn);
+        break;
+    case Action::TurnDown:
+        turn(0.0, -kTurn);
+        break;
+    case Action::Cancel:
+        mLayout.helpShown = false;
+        mTools.cancel();
+        break;
+    case Action::Save:
+        mActions.save();
+        break;
+    case Action::SaveAs:
+    case Action::Open:
+    case Action::Select:
+    case Action::Paint:
+    case Action::Play:
         break;
     }
 }

@@ -1,6 +1,10 @@
 #include "ui/layout.h"
 
+#include "ui/panels/brush_panel.h"
+#include "ui/panels/help_window.h"
 #include "ui/panels/light_panel.h"
+#include "ui/panels/material_panel.h"
+#include "ui/panels/profile_panel.h"
 #include "ui/panels/view_panel.h"
 #include "ui/theme.h"
 #include "ui/view_names.h"
@@ -61,6 +65,27 @@ void drawMenu(Session& session, LayoutState& state, const LayoutActions& actions
         item("Quit", "Ctrl+Q", actions.quit);
         ImGui::EndMenu();
     }
+    if (ImGui::BeginMenu("Edit")) {
+        const subedit::Document* const document = session.activeDocument();
+        const bool canUndo = document != nullptr && document->canUndo();
+        const bool canRedo = document != nullptr && document->canRedo();
+        if (ImGui::MenuItem(canUndo ? ("Undo " + document->undoTitle()).c_str() : "Undo", "Ctrl+Z",
+                            false, canUndo)) {
+            session.perform({"edit.undo"});
+        }
+        if (ImGui::MenuItem(canRedo ? ("Redo " + document->redoTitle()).c_str() : "Redo",
+                            "Ctrl+Shift+Z", false, canRedo)) {
+            session.perform({"edit.redo"});
+        }
+        ImGui::Separator();
+        if (ImGui::MenuItem("Fill", nullptr, false, document != nullptr)) {
+            session.perform({"edit.fill"});
+        }
+        if (ImGui::MenuItem("Swap profiles", "X")) {
+            session.perform({"profile.swap"});
+        }
+        ImGui::EndMenu();
+    }
     if (ImGui::BeginMenu("View")) {
         for (const ViewName& name : viewNames()) {
             if (ImGui::MenuItem(name.label, nullptr, session.view.mode.mode == name.mode)) {
@@ -83,7 +108,8 @@ void drawMenu(Session& session, LayoutState& state, const LayoutActions& actions
     ImGui::EndMainMenuBar();
 }
 
-void drawSideBar(Session& session, LayoutState& state, const Viewport& viewport, float scale) {
+void drawSideBar(Session& session, LayoutState& state, const LayoutActions& actions,
+                 const Viewport& viewport, float scale) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     const float width = sideBarWidth(size.x, scale);
     ImGui::SetNextWindowPos({size.x - width, menuHeight()});
@@ -94,7 +120,11 @@ void drawSideBar(Session& session, LayoutState& state, const Viewport& viewport,
             Tab tab;
             const char* label;
         };
-        constexpr std::array<Named, 2> kTabs{{{Tab::Light, "Light"}, {Tab::View, "View"}}};
+        constexpr std::array<Named, 5> kTabs{{{Tab::Brush, "Brush"},
+                                              {Tab::Profile, "Profile"},
+                                              {Tab::Materials, "Material"},
+                                              {Tab::Light, "Light"},
+                                              {Tab::View, "View"}}};
         const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
         const float each =
             (ImGui::GetContentRegionAvail().x - gap * (kTabs.size() - 1)) / kTabs.size();
@@ -116,8 +146,17 @@ void drawSideBar(Session& session, LayoutState& state, const Viewport& viewport,
             case Tab::View:
                 drawViewPanel(session, viewport);
                 break;
-            default:
+            case Tab::Light:
                 drawLightPanel(session);
+                break;
+            case Tab::Brush:
+                drawBrushPanel(session);
+                break;
+            case Tab::Profile:
+                drawProfilePanel(session);
+                break;
+            case Tab::Materials:
+                drawMaterialPanel(session, actions.putOn);
                 break;
             }
         }
@@ -226,10 +265,11 @@ void drawLayout(Session& session, LayoutState& state, const LayoutActions& actio
                 const Viewport& viewport, float scale) {
     if (state.panelsShown) {
         drawMenu(session, state, actions);
-        drawSideBar(session, state, viewport, scale);
+        drawSideBar(session, state, actions, viewport, scale);
         drawStatus(session, state, viewport, scale);
     }
     drawNotices(session, viewport.rect(), scale);
+    drawHelpWindow(state.helpShown, scale);
 }
 
 } // namespace celadon::ui

@@ -15,7 +15,8 @@ enum class Tab { Brush, Profile, Materials, Light, View };
 struct LayoutActions {
     std::function<void()> openModel, openMaterial, openEnvironment;
     std::function<void()> save, saveAs, savePicture, quit;
-    std::function<void(const std::string&)> open; ///< a recent file or builtin
+    std::function<void(const std::string&)> open;  ///< a recent file or builtin
+    std::function<void(const std::string&)> putOn; ///< a material, by name or file
     std::function<void()> toggleFullScreen;
 };
 
@@ -23,7 +24,7 @@ struct LayoutState {
     bool panelsShown = true;
     bool helpShown = false;
     bool preferencesShown = false;
-    Tab tab = Tab::Light;
+    Tab tab = Tab::Brush;
     std::string activity; ///< what is being waited for, in the status bar
 };
 

@@ -26,6 +26,21 @@ FrameSettings settingsOf(const PictureRequest& request) {
 
 } // namespace
 
+MaterialPatch makePatch(int material, const subedit::MaterialMap& map,
+                        const subedit::TexelRect& rect) {
+    MaterialPatch patch;
+    patch.material = material;
+    patch.rect = rect;
+    const auto row =
+        static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(map.knots()) * 3;
+    patch.logProfile.reserve(row * static_cast<std::size_t>(rect.height));
+    for (int y = rect.y; y < rect.bottom(); ++y) {
+        const float* const from = map.logProfile.data() + map.index(rect.x, y, 0);
+        patch.logProfile.insert(patch.logProfile.end(), from, from + row);
+    }
+    return patch;
+}
+
 /// What lives on the worker's context.
 struct PictureWorker::Renderers {
     struct Ready {
@@ -37,27 +52,57 @@ struct PictureWorker::Renderers {
     };
 
     std::unique_ptr<gl::Context> context;
-    std::unique_ptr<World> world; ///< a copy, whose materials are ours to patch
+    std::shared_ptr<const World> world;
     std::vector<std::shared_ptr<subedit::MaterialMap>> materials;
     std::shared_ptr<GpuScene> scene;
     std::list<Ready> ready; ///< latest used first
     std::unique_ptr<ToneMapPass> toneMap;
     std::unique_ptr<ViewModePass> viewMode;
 
-    void setWorld(const World& source) {
+    void setWorld(std::shared_ptr<const World> newWorld,
+                  std::vector<std::shared_ptr<subedit::MaterialMap>> newMaterials) {
+        dropScene();
+        world = std::move(newWorld);
+        materials = std::move(newMaterials);
+        makeScene();
+    }
+
+    void dropScene() {
         ready.clear();
         toneMap.reset();
         viewMode.reset();
         scene.reset();
-        world = std::make_unique<World>(source);
-        materials.clear();
-        for (MaterialPointer& material : world->materials) {
-            materials.push_back(std::make_shared<subedit::MaterialMap>(*material));
-            material = materials.back();
-        }
+    }
+
+    void makeScene() {
         scene = std::make_shared<GpuScene>(*world, frameSettings(Quality::Default));
         toneMap = std::make_unique<ToneMapPass>(scene->shaders);
         viewMode = std::make_unique<ViewModePass>(scene->shaders, scene->materials.count());
+    }
+
+    void apply(const std::deque<MaterialPatch>& patches) {
+        bool isWhole = false;
+        for (const MaterialPatch& patch : patches) {
+            subedit::MaterialMap& map = *materials[static_cast<std::size_t>(patch.material)];
+            if (patch.whole) {
+                map = *patch.whole;
+                isWhole = true;
+                continue;
+            }
+            const float* from = patch.logProfile.data();
+            const auto row = static_cast<std::size_t>(patch.rect.width) *
+                             static_cast<std::size_t>(map.knots()) * 3;
+            for (int y = patch.rect.y; y < patch.rect.bottom(); ++y, from += row) {
+                std::copy_n(from, row, map.logProfile.data() + map.index(patch.rect.x, y, 0));
+            }
+            if (!isWhole) {
+                scene->materials.update(patch.material, map, patch.rect);
+            }
+        }
+        if (isWhole) {
+            dropScene();
+            makeScene();
+        }
     }
 
     FrameRenderer& rendererFor(const PictureRequest& request) {
@@ -93,10 +138,12 @@ PictureWorker::~PictureWorker() {
     mThread.join();
 }
 
-void PictureWorker::setWorld(std::shared_ptr<const World> world) {
+void PictureWorker::setWorld(std::shared_ptr<const World> world,
+                             std::vector<std::shared_ptr<subedit::MaterialMap>> materials) {
     {
         const std::lock_guard lock(mMutex);
         mNewWorld = std::move(world);
+        mNewMaterials = std::move(materials);
         mPatches.clear();
         mRequest.reset();
         mPicture.reset();
@@ -147,7 +194,8 @@ void PictureWorker::run() {
         }
         mBusy = true;
         mInterrupt = false;
-        const std::shared_ptr<const World> newWorld = std::exchange(mNewWorld, nullptr);
+        std::shared_ptr<const World> newWorld = std::exchange(mNewWorld, nullptr);
+        auto newMaterials = std::exchange(mNewMaterials, {});
         const std::deque<MaterialPatch> patches = std::exchange(mPatches, {});
         const std::optional<PictureRequest> request = std::exchange(mRequest, std::nullopt);
         lock.unlock();
@@ -156,7 +204,10 @@ void PictureWorker::run() {
                 renderers.context = gl::createWindowContext(mWindow);
             }
             if (newWorld) {
-                renderers.setWorld(*newWorld);
+                renderers.setWorld(std::move(newWorld), std::move(newMaterials));
+            }
+            if (renderers.scene && !patches.empty()) {
+                renderers.apply(patches);
             }
             if (renderers.scene && request) {
                 serve(renderers, *request);

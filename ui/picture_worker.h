@@ -6,6 +6,7 @@
 #include "renderer/scene/world.h"
 #include "renderer/shading/tone_map_pass.h"
 #include "renderer/shading/view_mode_pass.h"
+#include "subedit/map/texel_rect.h"
 #include "ui/quality_ladder.h"
 
 #include <atomic>
@@ -49,13 +50,18 @@ struct Picture {
     StageMilliseconds stages;
 };
 
-/// A rectangle of changed texels of one material; texels row by row, [height][width][knots][3].
+/// Changed texels of one material, row by row, [height][width][knots][3]; or all of it, another
+/// size or layout included.
 struct MaterialPatch {
     int material = 0;
-    glm::ivec2 origin{0};
-    glm::ivec2 size{0};
+    subedit::TexelRect rect;
     std::vector<float> logProfile;
+    std::shared_ptr<const subedit::MaterialMap> whole; ///< instead of rect and texels
 };
+
+/// A copy of a rectangle's texels. @param map keeps its layout until the patch is applied
+[[nodiscard]] MaterialPatch makePatch(int material, const subedit::MaterialMap& map,
+                                      const subedit::TexelRect& rect);
 
 class PictureWorker {
 public:
@@ -66,8 +72,10 @@ public:
     PictureWorker(const PictureWorker&) = delete;
     PictureWorker& operator=(const PictureWorker&) = delete;
 
-    /// Takes effect before the next request. Forgets earlier patches.
-    void setWorld(std::shared_ptr<const World> world);
+    /// Takes effect before the next request. Earlier patches are forgotten.
+    /// @param materials those of the world, which are the worker's from now on
+    void setWorld(std::shared_ptr<const World> world,
+                  std::vector<std::shared_ptr<subedit::MaterialMap>> materials);
     /// Texels of the current world's materials, in order.
     void patchMaterial(MaterialPatch patch);
     /// @param giveUp what is being rendered is of no use any more
@@ -91,6 +99,7 @@ private:
     bool mStop = false;
     bool mBusy = false;
     std::shared_ptr<const World> mNewWorld;
+    std::vector<std::shared_ptr<subedit::MaterialMap>> mNewMaterials;
     std::deque<MaterialPatch> mPatches;
     std::optional<PictureRequest> mRequest;
     std::optional<Picture> mPicture;

@@ -62,6 +62,26 @@ bool Viewport::takePicture(Session& session) {
     return true;
 }
 
+void Viewport::passMaterials(Session& session) {
+    for (int i = 0; i < session.materialCount(); ++i) {
+        subedit::Document* const document = session.document(i);
+        if (document == nullptr) {
+            continue;
+        }
+        const subedit::DocumentChanges changes = document->takeChanges();
+        if (changes.layoutChanged) {
+            MaterialPatch patch;
+            patch.material = i;
+            patch.whole = std::make_shared<subedit::MaterialMap>(document->material());
+            mWorker.patchMaterial(std::move(patch));
+            continue;
+        }
+        for (const subedit::TexelRect& rect : changes.rects) {
+            mWorker.patchMaterial(makePatch(i, document->material(), rect));
+        }
+    }
+}
+
 void Viewport::ask(Session& session, int rung) {
     PictureRequest request;
     request.revision = session.pictureRevision();
@@ -84,12 +104,13 @@ bool Viewport::update(Session& session) {
     }
     if (mWorldRevision != session.worldRevision()) {
         mWorldRevision = session.worldRevision();
-        mWorker.setWorld(session.sharedWorld());
+        mWorker.setWorld(session.sharedWorld(), session.takeRenderedMaterials());
         mInFlight.reset();
         mShownRevision = 0;
         mLadder.forget();
     }
     const bool redraw = takePicture(session);
+    passMaterials(session);
     const std::uint64_t revision = session.pictureRevision();
     if (mSeenRevision != revision) {
         mSeenRevision = revision;

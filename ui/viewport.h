@@ -57,6 +57,7 @@ private:
     };
 
     bool takePicture(Session& session);
+    void passMaterials(Session& session);
     void ask(Session& session, int rung);
 
     PictureWorker& mWorker;

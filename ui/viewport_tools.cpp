@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace celadon::ui {
@@ -74,6 +75,17 @@ void ViewportTools::handle(const InputEvent& event, const ViewportRect& rect, bo
         mDrag = Drag::None;
         return;
     }
+    if (mAdjust) {
+        if (event.kind == InputEvent::Kind::Move) {
+            adjust(event.positionPx);
+        } else if (event.kind == InputEvent::Kind::Press) {
+            if (event.button != GLFW_MOUSE_BUTTON_LEFT) {
+                cancel();
+            }
+            mAdjust.reset();
+        }
+        return;
+    }
     switch (event.kind) {
     case InputEvent::Kind::Press:
         if (mDrag == Drag::None && !overUi && rect.contains(event.positionPx)) {
@@ -83,6 +95,9 @@ void ViewportTools::handle(const InputEvent& event, const ViewportRect& rect, bo
     case InputEvent::Kind::Release:
         if (event.button == mButton) {
             move(event, rect);
+            if (mDrag == Drag::Paint) {
+                mSession.endStroke();
+            }
             mDrag = Drag::None;
             mButton = -1;
         }
@@ -112,7 +127,7 @@ void ViewportTools::press(const InputEvent& event, const ViewportRect& rect) {
             mSession.perform({"light.select", {{"light", mLight}}});
             return;
         }
-        mDrag = Drag::Orbit;
+        pressTool(event, rect);
         return;
     }
     if (event.button == GLFW_MOUSE_BUTTON_MIDDLE) {
@@ -164,8 +179,153 @@ void ViewportTools::move(const InputEvent& event, const ViewportRect& rect) {
               {"position", toJson(at + delta.x * mm * frame.right - delta.y * mm * frame.up)}}});
         break;
     }
+    case Drag::Paint:
+        paintTo(event.positionPx, rect);
+        break;
     case Drag::None:
         break;
+    }
+}
+
+void ViewportTools::pressTool(const InputEvent& event, const ViewportRect& rect) {
+    if (!mSession.services().isPaintable) {
+        mDrag = Drag::Orbit;
+        return;
+    }
+    const std::optional<SurfacePoint> hit = pick(event.positionPx, rect);
+    if (!hit) {
+        mDrag = Drag::Orbit; // beside the object the hand turns it
+        return;
+    }
+    if (hit->material < 0) {
+        return;
+    }
+    if (mSession.paint.tool == Tool::Pick) {
+        mSession.perform(
+            {"profile.pick", {{"material", hit->material}, {"uv", {hit->uv.x, hit->uv.y}}}});
+        mSession.perform({"tool.choose", {{"name", "paint"}}});
+        return;
+    }
+    mInverted = (event.modifiers & GLFW_MOD_CONTROL) != 0;
+    mDrag = Drag::Paint;
+    mPaintedPx = event.positionPx;
+    mLastPoint.reset();
+    paintPoint(event.positionPx, rect);
+}
+
+bool ViewportTools::paintPoint(glm::dvec2 positionPx, const ViewportRect& rect) {
+    const std::optional<SurfacePoint> hit = pick(positionPx, rect);
+    if (!hit || hit->material < 0 ||
+        (mSession.isStrokeOpen() && hit->material != mSession.activeMaterial)) {
+        mLastPoint.reset();
+        return false;
+    }
+    subedit::StrokePoint point;
+    point.positionMm = glm::vec3(hit->positionMm);
+    point.normal = glm::vec3(hit->shadingNormal);
+    // After a gap, or where the surface jumps, the path begins anew: nothing between is painted.
+    constexpr double kJump = 2.5; // radii
+    const bool goesOn = mSession.isStrokeOpen() && mLastPoint &&
+                        glm::distance(*mLastPoint, hit->positionMm) <
+                            kJump * static_cast<double>(mSession.paint.brush.radiusMm);
+    if (!goesOn) {
+        mSession.endStroke();
+        mSession.beginStroke(hit->material, point, mInverted);
+    } else {
+        mSession.addStrokePoint(point);
+    }
+    mLastPoint = hit->positionMm;
+    return true;
+}
+
+void ViewportTools::paintTo(glm::dvec2 positionPx, const ViewportRect& rect) {
+    // A fast hand: points between, so that the path follows the surface.
+    constexpr int kMostPoints = 128;
+    const glm::dvec2 from = mPaintedPx;
+    double stepPx = 8.0;
+    if (mLastPoint) {
+        const double mmPerPx = pictureHeightMm(mSession.camera, *mLastPoint) / rect.size.y;
+        stepPx = std::max(1.0, 0.5 * static_cast<double>(mSession.paint.brush.radiusMm) / mmPerPx);
+    }
+    const int steps = std::clamp(
+        static_cast<int>(std::ceil(glm::distance(from, positionPx) / stepPx)), 1, kMostPoints);
+    for (int i = 1; i <= steps; ++i) {
+        paintPoint(glm::mix(from, positionPx, static_cast<double>(i) / steps), rect);
+    }
+    mPaintedPx = positionPx;
+}
+
+void ViewportTools::cancel() {
+    if (mAdjust) {
+        mSession.paint.brush = mAdjust->brush;
+        mAdjust.reset();
+    }
+    if (mDrag == Drag::Paint) {
+        mSession.cancelStroke();
+        mDrag = Drag::None;
+    }
+}
+
+void ViewportTools::beginAdjust(Adjust what) {
+    if (mDrag == Drag::None && mSession.services().isPaintable) {
+        mAdjust = Adjusting{what, mCursor, mSession.paint.brush};
+    }
+}
+
+void ViewportTools::adjust(glm::dvec2 positionPx) {
+    const double moved = positionPx.x - mAdjust->start.x;
+    if (mAdjust->what == Adjust::Radius) {
+        mSession.perform(
+            {"brush.change",
+             {{"radius", static_cast<double>(mAdjust->brush.radiusMm) * std::exp(moved / 150.0)}}});
+    } else {
+        const double flow = static_cast<double>(mAdjust->brush.flow) + moved / 300.0;
+        mSession.perform({"brush.change", {{"flow", std::clamp(flow, 0.01, 1.0)}}});
+    }
+}
+
+void ViewportTools::drawBrush(ImDrawList& list, const ViewportRect& rect, float scale) {
+    if (!mSession.services().isPaintable || mSession.paint.tool == Tool::Pick) {
+        return;
+    }
+    const glm::dvec2 at = mAdjust ? mAdjust->start : mCursor;
+    if ((mIsOverUi && mDrag != Drag::Paint) || !rect.contains(at) ||
+        (mDrag != Drag::None && mDrag != Drag::Paint)) {
+        return;
+    }
+    const std::optional<SurfacePoint> hit = pick(at, rect);
+    if (!hit || hit->material < 0) {
+        return;
+    }
+    const glm::dvec3 n = hit->shadingNormal;
+    const glm::dvec3 side = glm::normalize(
+        glm::cross(std::abs(n.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0), n));
+    const glm::dvec3 other = glm::cross(n, side);
+    const auto ring = [&](double radiusMm, ImU32 color, float width) {
+        // Each point is laid on the surface where that is near the tangent plane.
+        constexpr int kPoints = 48;
+        ImVec2 points[kPoints];
+        for (int i = 0; i < kPoints; ++i) {
+            const double angle = 2.0 * 3.14159265358979 * i / kPoints;
+            glm::dvec3 p =
+                hit->positionMm + radiusMm * (std::cos(angle) * side + std::sin(angle) * other);
+            const RayScene* const scene = rays();
+            const auto down = scene->nearest(p + 0.7 * radiusMm * n, -n);
+            if (down && down->distanceMm < 1.4 * radiusMm) {
+                p += (0.7 * radiusMm - down->distanceMm) * n;
+            }
+            const glm::dvec2 seen = seenAt(mSession.camera, p, rect);
+            points[i] = {static_cast<float>(seen.x), static_cast<float>(seen.y)};
+        }
+        list.AddPolyline(points, kPoints, color, ImDrawFlags_Closed, width);
+    };
+    const subedit::Brush& brush = mSession.paint.brush;
+    const double radius = static_cast<double>(brush.radiusMm);
+    ring(radius, IM_COL32(0, 0, 0, 120), 3.0f * scale);
+    ring(radius, IM_COL32(255, 255, 255, 220), 1.4f * scale);
+    if (brush.hardness > 0.02f && brush.hardness < 0.98f) {
+        ring(radius * static_cast<double>(brush.hardness), IM_COL32(255, 255, 255, 70),
+             1.0f * scale);
     }
 }
 
@@ -175,10 +335,11 @@ void ViewportTools::wheel(const InputEvent& event, const ViewportRect& rect) {
                        {"point", toJson(pivot(event.positionPx, rect))}}});
 }
 
-void ViewportTools::drawOverlay(ImDrawList& list, const ViewportRect& rect, float scale) const {
+void ViewportTools::drawOverlay(ImDrawList& list, const ViewportRect& rect, float scale) {
     if (!mSession.hasWorld()) {
         return;
     }
+    drawBrush(list, rect, scale);
     const BoundingSphere& object = mSession.world().scatteringSphere;
     for (std::size_t i = 0; i < mSession.rig.lights.size(); ++i) {
         const RigLight& item = mSession.rig.lights[i];
