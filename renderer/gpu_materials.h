@@ -5,6 +5,7 @@
 #include "renderer/gl/texture.h"
 #include "renderer/scene/world.h"
 #include "renderer/shading/fresnel.h"
+#include "subedit/map/texel_rect.h"
 
 #include <span>
 #include <vector>
@@ -21,6 +22,11 @@ public:
     /// @throws InputError for more than kMaxMaterials, or a map beyond the driver's texture sizes
     GpuMaterials(std::span<const MaterialPointer> materials, double energy, double epsilon,
                  ExitFresnel exitFresnel, std::span<const float> rangeTable = {});
+
+    /// Texels of a rectangle have changed. Neither size nor layout of the map may have; the range
+    /// table and the means stay as they were made.
+    /// @param map as it is now
+    void update(int material, const subedit::MaterialMap& map, const subedit::TexelRect& rect);
 
     /// Textures to units 8.., the uniform block to its binding point.
     void bind() const;
@@ -44,6 +50,8 @@ private:
     gl::Sampler mMapSampler, mTableSampler;
     std::vector<float> mRangeTables; ///< one row a material
     std::size_t mTableSize = 0;
+    std::vector<std::vector<double>> mMeanLogProfiles; ///< per material, for update()
+    double mEnergy = 1.0;
     bool mHomogeneous = false;
     float mMeanRadiusMm = 0.0f;
     float mKnotSpacingMm = 0.0f;

@@ -88,6 +88,9 @@ void CpuBackend::add(const SolveInput& input, const LightView& lightView, gl::St
     }
     const int levels = input.view.levels();
     for (int k = 0; k < levels; ++k) {
+        if (input.isInterrupted()) {
+            return;
+        }
         const auto scope = timer.measure("splatting " + std::to_string(k));
         ViewLevel& level = mView[static_cast<std::size_t>(k)];
         const ViewTexels texels{mExitance.size2d(k), level.positions.data(), level.surfaces.data(),

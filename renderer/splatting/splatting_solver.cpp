@@ -85,6 +85,9 @@ const gl::Texture& SplattingSolver::solve(const SolveInput& input, gl::StageTime
              makeLightViews(light, input.world.scatteringSphere, input.world.sceneSphere,
                             mSettings.irradianceSize)) {
             mBackend->add(input, lightView, timer);
+            if (input.isInterrupted()) {
+                return mBackend->exitance();
+            }
             if (mCollect) {
                 mBackend->count(mStatistics);
             }
