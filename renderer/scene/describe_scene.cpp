@@ -1,5 +1,7 @@
 #include "renderer/scene/describe_scene.h"
 
+#include "renderer/scene/rig.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -138,6 +140,13 @@ std::vector<std::string> describeScene(const Scene& scene) {
     }
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         lines.push_back(fmt::format("light {}: {}", i, lightText(scene.lights[i])));
+    }
+    for (std::size_t i = 0; scene.rig && i < scene.rig->animations.size(); ++i) {
+        const Animation& animation = scene.rig->animations[i];
+        lines.push_back(fmt::format("animation {}{}: {:.6g} s, {} channel{}", i,
+                                    nameText(animation.name), animation.durationSeconds,
+                                    animation.channels.size(),
+                                    animation.channels.size() == 1 ? "" : "s"));
     }
     for (const std::string& warning : scene.warnings) {
         lines.push_back("warning: " + warning);

@@ -165,6 +165,38 @@ TEST_F(DeformationTest, TheDeformedFrameIsThatOfTheSameShape) {
     EXPECT_GT(test::compareExitance(undeformed.image, expected.image).relativeRmse, 0.1);
 }
 
+TEST_F(DeformationTest, LightThroughAPlateFollowsItsThickness) {
+    const MaterialPointer deep = test::makeMaterial("deep", 1, 48, 60.0f, [](int, int) {
+        return test::ProfileRecipe{glm::dvec3(0.8), glm::dvec3(4.0)};
+    });
+    const World plate = makeWorld("builtin:slab", deep); // 20 mm thick
+    Motion motion(plate);
+    motion.setDeformers(deformers({"taper:x:0.3"})); // to 6 mm at +x
+    const World rest = posedWorld(plate, motion.at(0.0));
+    FrameSettings settings = test::smallFrame({64, 32}, 256, Scheme::Hierarchical);
+    Camera camera;
+    camera.eye = {0.0, 250.0, 0.0};
+    camera.at = {0.0, 0.0, 0.0};
+    camera.up = {0.0, 0.0, -1.0};
+    camera.fovYDegrees = 12.0;
+    const std::vector<Light> lights{test::directionalLight({0.0, 1.0, 0.0})};
+    const RenderedFrame splatted = test::renderFrame(context(), rest, settings, camera, lights);
+    settings.solver = SolverKind::ImageReference;
+    const RenderedFrame reference = test::renderFrame(context(), rest, settings, camera, lights);
+    double before = 0.0;
+    double first = 0.0;
+    for (int x = 4; x < 50; x += 5) { // beyond, light leaves at the thin end
+        const glm::ivec2 pixel(x, 16);
+        ASSERT_TRUE(test::seesScattering(reference.image, pixel)) << x;
+        const double expected = test::exitanceAt(reference.image, pixel).x;
+        EXPECT_NEAR(test::exitanceAt(splatted.image, pixel).x, expected, 0.02 * expected) << x;
+        EXPECT_GT(expected, before) << "thinner, but not brighter, at column " << x;
+        first = x == 4 ? expected : first;
+        before = expected;
+    }
+    EXPECT_GT(before, 3.0 * first); // not a flat curve
+}
+
 TEST_F(DeformationTest, AnExplosionIsStoppedWithItsCause) {
     const World rest = makeWorld("builtin:sphere", wax());
     Motion motion(rest);
