@@ -6,7 +6,7 @@
 #include "subedit/map/image_map.h"
 #include "subedit/map/material_bake.h"
 #include "subedit/map/material_file.h"
-#include "subedit/models/half_space.h"
+#include "subedit/map/medium_bake.h"
 #include "subedit/recipes/recipes.h"
 
 #include <CLI/CLI.hpp>
@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -116,41 +115,6 @@ NamedMap readAlbedo(const BakeOptions& options) {
     return albedo;
 }
 
-/// The exact total of a half space over alpha', so that a map costs no integral per texel.
-class TotalTable {
-public:
-    explicit TotalTable(double eta) {
-        for (int i = 0; i <= kEntries; ++i) {
-            const double root = static_cast<double>(i) / kEntries; // sqrt(1 - alpha')
-            mTotals.push_back(halfSpaceTotal(1.0 - root * root, eta));
-        }
-    }
-    [[nodiscard]] float total(double reducedAlbedo) const {
-        const double position = std::sqrt(std::max(1.0 - reducedAlbedo, 0.0)) * kEntries;
-        const auto i = std::min(static_cast<std::size_t>(position), mTotals.size() - 2);
-        return static_cast<float>(
-            std::lerp(mTotals[i], mTotals[i + 1], position - static_cast<double>(i)));
-    }
-
-private:
-    static constexpr int kEntries = 256;
-    std::vector<double> mTotals;
-};
-
-/// sigma_a and sigma_s' become surface albedo and mean free path.
-void fromCoefficients(NamedMap& absorption, NamedMap& scattering, double eta) {
-    const TotalTable table(eta);
-    for (std::size_t i = 0; i < absorption.map.values.size(); ++i) {
-        for (int channel = 0; channel < 3; ++channel) {
-            float& a = absorption.map.values[i][channel];
-            float& s = scattering.map.values[i][channel];
-            const float extinction = a + s;
-            a = table.total(static_cast<double>(s / extinction));
-            s = std::clamp(1.0f / extinction, kSmallestMeanFreePathMm, kLargestMeanFreePathMm);
-        }
-    }
-}
-
 MaterialMap bakeMaps(const BakeOptions& options, const BakeSettings& settings) {
     const bool isByCoefficients = !options.absorption.empty();
     const auto coefficientScale = static_cast<float>(options.coefficientScale);
@@ -177,22 +141,25 @@ MaterialMap bakeMaps(const BakeOptions& options, const BakeSettings& settings) {
     addUnit("--roughness", options.roughness, roughness);
     addUnit("--specular", options.specular, specular);
     unifySizes(maps, options.size, settings.segments);
-    if (isByCoefficients) {
-        fromCoefficients(color, length, options.eta);
-    }
-    AppearanceMap appearance;
-    appearance.width = color.map.width;
-    appearance.height = color.map.height;
-    appearance.eta = static_cast<float>(options.eta);
-    appearance.albedo = color.map.values;
-    for (std::size_t i = 0; i < color.map.values.size(); ++i) {
-        appearance.effectiveRadius.push_back(
-            effectiveRadiusFromMeanFreePath(color.map.values[i], length.map.values[i]));
-    }
+    std::vector<float> roughnessValues;
     for (const glm::vec3& value : roughness.map.values) {
-        appearance.roughness.push_back(value.x);
+        roughnessValues.push_back(value.x);
     }
-    MaterialMap map = bakeAppearance(appearance, settings);
+    const int width = color.map.width;
+    const int height = color.map.height;
+    const auto eta = static_cast<float>(options.eta);
+    MaterialMap map;
+    if (isByCoefficients) {
+        map = bakeMedia({width, height, eta, color.map.values, length.map.values, roughnessValues},
+                        settings);
+    } else {
+        AppearanceMap appearance{"", width, height, eta, color.map.values, {}, roughnessValues};
+        for (std::size_t i = 0; i < color.map.values.size(); ++i) {
+            appearance.effectiveRadius.push_back(
+                effectiveRadiusFromMeanFreePath(color.map.values[i], length.map.values[i]));
+        }
+        map = bakeAppearance(appearance, settings);
+    }
     for (const glm::vec3& value : specular.map.values) {
         map.specular.push_back(value.x);
     }
@@ -278,7 +245,9 @@ void addMapOptions(CLI::App& bake, BakeOptions& o) {
     addOption(bake, "--mean-free-path-scale",
               {group, "MM", "What 1 in the mean free path picture stands for; default 1"},
               takeNumber(o.meanFreePathScale, {1e-6, 1e6, false}));
-    addOption(bake, "--absorption", {group, "FILE|R,G,B", "sigma_a in 1/mm, linear, instead"},
+    addOption(bake, "--absorption",
+              {group, "FILE|R,G,B",
+               "Instead: sigma_a in 1/mm, linear; profiles are those of photon beam diffusion"},
               takeText(o.absorption));
     addOption(bake, "--reduced-scattering", {group, "FILE|R,G,B", "sigma_s' in 1/mm, linear"},
               takeText(o.reducedScattering));

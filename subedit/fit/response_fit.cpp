@@ -241,7 +241,7 @@ ResponseFit fitResponses(std::span<const ResponseSample> samples,
                 std::clamp(logP[c][i], static_cast<double>(kLogProfileFloor), 40.0));
         }
         double squares = 0.0;
-        double count = 0.0;
+        double sum = 0.0;
         double errors = 0.0;
         double responses = 0.0;
         for (const ResponseSample& sample : samples) {
@@ -249,13 +249,13 @@ ResponseFit fitResponses(std::span<const ResponseSample> samples,
                 const double response = static_cast<double>(sample.response[channel]);
                 const double predicted = system.predict(sample, logP[c]);
                 const double logError = predicted - std::log(response);
-                squares += logError * logError;
-                count += 1.0;
+                squares += response * logError * logError;
+                sum += response;
                 errors += std::pow(std::exp(predicted) - response, 2);
                 responses += response * response;
             }
         }
-        fit.rmsLogError[channel] = count > 0.0 ? std::sqrt(squares / count) : 0.0;
+        fit.rmsLogError[channel] = sum > 0.0 ? std::sqrt(squares / sum) : 0.0;
         fit.relativeError[channel] = responses > 0.0 ? std::sqrt(errors / responses) : 0.0;
     });
     for (std::size_t texel = 0; texel < texels; ++texel) {

@@ -31,7 +31,7 @@ struct ResponseFitSettings {
 
 struct ResponseFit {
     MaterialMap map;
-    glm::dvec3 rmsLogError{0.0}; ///< of ln R_d over the samples
+    glm::dvec3 rmsLogError{0.0}; ///< of ln R_d, weighted by R_d
     /// Root of the sum of squared errors of R_d over that of its squares.
     glm::dvec3 relativeError{0.0};
     std::size_t used = 0;    ///< samples within r_s with a response

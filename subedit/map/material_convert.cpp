@@ -1,7 +1,7 @@
 #include "subedit/map/material_convert.h"
 
+#include "subedit/fit/albedo_shift.h"
 #include "subedit/fit/profile_fit.h"
-#include "subedit/log_linear.h"
 #include "subedit/radius_map.h"
 
 #include <tbb/parallel_for.h>
@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 namespace celadon::subedit {
 
@@ -53,16 +52,10 @@ void shiftToAlbedo(float* logProfile, int segments, double maxRadiusMm, int chan
     if (albedo < kBlackAlbedo) {
         return;
     }
-    const double h = maxRadiusMm / segments;
-    const auto knot = [&](int k) { return static_cast<double>(logProfile[k * 3 + channel]); };
-    double energy = 0.0;
-    for (int k = 0; k < segments; ++k) {
-        energy += pieceEnergy(knot(k), knot(k + 1), k * h, h);
-    }
-    const double shift = std::log(albedo / (2.0 * std::numbers::pi * energy));
+    const double shift = albedoShift(logProfile + channel, 3, segments, maxRadiusMm, albedo);
     for (int k = 0; k <= segments; ++k) {
         logProfile[k * 3 + channel] =
-            std::max(static_cast<float>(knot(k) + shift), kLogProfileFloor);
+            std::max(logProfile[k * 3 + channel] + static_cast<float>(shift), kLogProfileFloor);
     }
 }
 
