@@ -104,6 +104,9 @@ NearestParameters nearestParameters(const MaterialMap& map) {
         }
         for (int i = 1; i < 64; ++i) {
             const double r = static_cast<double>(map.maxRadiusMm) * i * i / 4096.0;
+            if (r * map.segments < static_cast<double>(map.maxRadiusMm)) {
+                continue; // within the first segment energies are kept, radii are not
+            }
             nearest.shapeError =
                 std::max(nearest.shapeError, std::abs(stored[c].energyWithin(r) / stored[c].total -
                                                       model[c].energyWithin(r) / model[c].total));

@@ -9,6 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -59,10 +60,15 @@ public:
             const double albedo = std::clamp(1.0 - x * x, 1e-7, 1.0);
             const auto eta = static_cast<double>(media.eta);
             Entry& entry = mEntries[i];
-            entry.curve =
-                photonBeamProfile(mediumFromAlbedo(glm::dvec3(albedo), glm::dvec3(1.0), eta))[0];
+            const RadialCurve curve = photonBeamProfile(
+                mediumFromAlbedo(glm::dvec3(albedo), glm::dvec3(1.0), eta))[0];
+            entry.curveTotal = curve.total;
             entry.total = halfSpaceTotal(albedo, eta);
-            entry.reach = radiusHolding(entry.curve, kHeldEnergy);
+            entry.reach = radiusHolding(curve, kHeldEnergy);
+            for (std::size_t sample = 0; sample < kSamples; ++sample) {
+                const double r = std::exp(kFirstLog + static_cast<double>(sample) / kPerLogRadius);
+                entry.logP[sample] = std::log(std::max(curve.reflectance(r), 1e-300));
+            }
         });
     }
 
@@ -80,12 +86,11 @@ public:
     /// Entry i at a mean free path, of albedo 1.
     [[nodiscard]] RadialCurve curve(std::size_t i, double lengthMm) const {
         const Entry& entry = mEntries[i];
-        const double scale = 1.0 / (entry.curve.total * lengthMm * lengthMm);
-        return {[&entry, scale, lengthMm](double r) {
-                    return scale * entry.curve.reflectance(r / lengthMm);
-                },
-                {},
-                1.0};
+        const double scale = 1.0 / (entry.curveTotal * lengthMm * lengthMm);
+        return {
+            [&entry, scale, lengthMm](double r) { return scale * entry.reflectance(r / lengthMm); },
+            {},
+            1.0};
     }
     [[nodiscard]] double total(const Place& place) const {
         const Between at = between(place);
@@ -99,10 +104,26 @@ public:
     }
 
 private:
+    static constexpr double kFirstLog = -12.0; ///< ln of the smallest radius, in mean free paths
+    static constexpr double kPerLogRadius = 24.0;
+    static constexpr std::size_t kSamples = 505; ///< up to e^9 = 8000 mean free paths
+
+    /// ln P over ln r: evaluating the model for every fit would take a minute.
     struct Entry {
-        RadialCurve curve;
+        std::array<double, kSamples> logP{};
+        double curveTotal = 0.0;
         double total = 0.0; ///< exact
         double reach = 0.0; ///< in mean free paths
+
+        [[nodiscard]] double reflectance(double r) const {
+            if (r <= 0.0) {
+                return std::numeric_limits<double>::infinity();
+            }
+            const double position =
+                std::clamp((std::log(r) - kFirstLog) * kPerLogRadius, 0.0, kSamples - 1.001);
+            const auto i = static_cast<std::size_t>(position);
+            return std::exp(std::lerp(logP[i], logP[i + 1], position - static_cast<double>(i)));
+        }
     };
     int mFirst = 0;
     std::vector<Entry> mEntries;
