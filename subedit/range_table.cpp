@@ -91,6 +91,25 @@ RangeTable RangeTable::build(const MeanProfile& profile, double epsilon) {
     return table;
 }
 
+RangeTable RangeTable::fromSamples(std::span<const double> T, std::span<const double> radius) {
+    CELADON_ASSERT(!T.empty() && T.size() == radius.size());
+    RangeTable table;
+    for (std::size_t entry = 0; entry < table.mValues.size(); ++entry) {
+        const double log = static_cast<double>(entry) / kRangeTableEntriesPerOctave;
+        const auto above = std::ranges::upper_bound(T, std::exp2(log) * (1.0 + 1e-12));
+        const auto next = static_cast<std::size_t>(above - T.begin());
+        if (next == 0 || next == T.size()) {
+            table.mValues[entry] = static_cast<float>(next == 0 ? radius.front() : radius.back());
+            continue;
+        }
+        const double from = std::log2(T[next - 1]);
+        const double t = (log - from) / (std::log2(T[next]) - from);
+        table.mValues[entry] =
+            static_cast<float>(std::lerp(radius[next - 1], radius[next], std::max(t, 0.0)));
+    }
+    return table;
+}
+
 float RangeTable::minimalRadius(float pixelsPerRadius) const {
     if (!(pixelsPerRadius > 1.0f)) {
         return 1.0f;

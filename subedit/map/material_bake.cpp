@@ -35,7 +35,8 @@ public:
                 entries > 1 ? static_cast<double>(i) / static_cast<double>(entries - 1) : 0.0;
             const double radius = std::exp(mLogShortest + span * along);
             static_cast<void>(fitChannel(normalizedDiffusionCurve(1.0, radius / unitRadius),
-                                         segments, maxRadiusMm, mLogP.data() + i * mKnots));
+                                         segments, maxRadiusMm, mLogP.data() + i * mKnots,
+                                         PeakFit::Blended));
         });
     }
 
