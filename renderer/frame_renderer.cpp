@@ -67,8 +67,9 @@ struct FrameRenderer::Passes {
           antialiasing(shaders, view) {
         switch (settings.solver) {
         case SolverKind::Splatting:
-            solver =
-                std::make_unique<SplattingSolver>(shaders, materials, view, settings.splatting);
+            settings.splatting.backend = resolveBackend(settings.splatting.backend, glContext);
+            solver = std::make_unique<SplattingSolver>(shaders, world.materials, materials, view,
+                                                       settings.splatting);
             break;
         case SolverKind::ImageReference:
             solver = std::make_unique<ImageReferenceSolver>(shaders, materials.count(),

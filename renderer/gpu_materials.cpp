@@ -64,7 +64,6 @@ GpuMaterials::GpuMaterials(std::span<const MaterialPointer> materials, double en
     }
     std::vector<blocks::MaterialEntry> entries;
     std::vector<float> tables;
-    std::size_t tableSize = 0;
     mKnotSpacingMm = 1e30f;
     for (const MaterialPointer& material : materials) {
         const subedit::MaterialMap& map = *material;
@@ -93,18 +92,18 @@ GpuMaterials::GpuMaterials(std::span<const MaterialPointer> materials, double en
         entry.profile = glm::vec4(map.maxRadiusMm, float(map.segments), map.eta, float(1.0 / c));
         entry.look = glm::vec4(0.0f);
         entries.push_back(entry);
-        tableSize = made.rangeTable.size();
+        mTableSize = made.rangeTable.size();
         tables.insert(tables.end(), made.rangeTable.begin(), made.rangeTable.end());
         mMeanRadiusMm += made.meanRadiusMm / static_cast<float>(materials.size());
         mKnotSpacingMm =
             std::min(mKnotSpacingMm, map.maxRadiusMm / static_cast<float>(map.segments));
         mLargestRadiusMm = std::max(mLargestRadiusMm, map.maxRadiusMm);
     }
-    mFirstTable.assign(tables.begin(), tables.begin() + static_cast<std::ptrdiff_t>(tableSize));
     mRangeTable = gl::Texture::make2d(
         "range table", GL_R32F,
-        glm::ivec2(static_cast<int>(tableSize), static_cast<int>(materials.size())));
+        glm::ivec2(static_cast<int>(mTableSize), static_cast<int>(materials.size())));
     mRangeTable.upload(0, tables);
+    mRangeTables = std::move(tables);
     mBlock = gl::Buffer::of("materials", entries);
     mHomogeneous = materials.size() == 1 && materials[0]->isHomogeneous();
 }
@@ -147,13 +146,14 @@ int GpuMaterials::nodeSegments() const {
                       subedit::kMaxSegments);
 }
 
-float GpuMaterials::minimalRadius(float pixelsPerRadius) const {
+float GpuMaterials::minimalRadius(float pixelsPerRadius, int material) const {
     const float position =
         std::clamp(std::log2(std::max(pixelsPerRadius, 1.0f)) / kLog2TMax, 0.0f, 1.0f) *
-        static_cast<float>(mFirstTable.size() - 1);
-    const std::size_t i = std::min(static_cast<std::size_t>(position), mFirstTable.size() - 2);
+        static_cast<float>(mTableSize - 1);
+    const std::size_t i = std::min(static_cast<std::size_t>(position), mTableSize - 2);
     const float t = position - static_cast<float>(i);
-    return mFirstTable[i] + t * (mFirstTable[i + 1] - mFirstTable[i]);
+    const float* table = mRangeTables.data() + static_cast<std::size_t>(material) * mTableSize;
+    return table[i] + t * (table[i + 1] - table[i]);
 }
 
 } // namespace celadon

@@ -4,6 +4,7 @@
 #include "renderer/gl/sampler.h"
 #include "renderer/gl/texture.h"
 #include "renderer/scene/world.h"
+#include "renderer/shading/fresnel.h"
 #include "subedit/map/texel_rect.h"
 
 #include <span>
@@ -13,8 +14,6 @@
 namespace celadon {
 
 inline constexpr int kMaxMaterials = 4; ///< as material.glsl unrolls
-
-enum class ExitFresnel { Exact, Paper }; ///< c of DESIGN 1: so that what leaves is B, or 1
 
 class GpuMaterials {
 public:
@@ -40,15 +39,16 @@ public:
     [[nodiscard]] float largestRadiusMm() const { return mLargestRadiusMm; } ///< largest r_s
     /// Knots that node profiles share: r_s the largest, spacing the finest, at most 256 segments.
     [[nodiscard]] int nodeSegments() const;
-    /// Rbar(T) of the first material's table.
-    [[nodiscard]] float minimalRadius(float pixelsPerRadius) const;
+    /// Rbar(T) (eq. 14).
+    [[nodiscard]] float minimalRadius(float pixelsPerRadius, int material = 0) const;
 
 private:
     gl::Buffer mBlock;
     std::vector<gl::Texture> mLogProfiles, mRadii, mKept, mFarEnergy;
     gl::Texture mRangeTable;
     gl::Sampler mMapSampler, mTableSampler;
-    std::vector<float> mFirstTable;
+    std::vector<float> mRangeTables; ///< one row a material
+    std::size_t mTableSize = 0;
     std::vector<std::vector<double>> mMeanLogProfiles; ///< per material, for update()
     double mEnergy = 1.0;
     bool mHomogeneous = false;

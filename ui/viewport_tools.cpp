@@ -310,9 +310,10 @@ void ViewportTools::drawBrush(ImDrawList& list, const ViewportRect& rect, float 
             glm::dvec3 p =
                 hit->positionMm + radiusMm * (std::cos(angle) * side + std::sin(angle) * other);
             const RayScene* const scene = rays();
-            const auto down = scene->nearest(p + 0.7 * radiusMm * n, -n);
-            if (down && down->distanceMm < 1.4 * radiusMm) {
-                p += (0.7 * radiusMm - down->distanceMm) * n;
+            const double reach = 0.35 * radiusMm;
+            const auto down = scene->nearest(p + reach * n, -n);
+            if (down && down->distanceMm < 2.0 * reach) {
+                p += (reach - down->distanceMm) * n;
             }
             const glm::dvec2 seen = seenAt(mSession.camera, p, rect);
             points[i] = {static_cast<float>(seen.x), static_cast<float>(seen.y)};
