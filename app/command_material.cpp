@@ -1,5 +1,6 @@
 #include "app/command_material.h"
 
+#include "app/command_material_edit.h"
 #include "app/describe_material.h"
 #include "app/option_takers.h"
 #include "app/rgb_argument.h"
@@ -223,8 +224,9 @@ Command addInfo(CLI::App& material) {
 } // namespace
 
 Command addMaterialCommand(CLI::App& root) {
-    CLI::App* material = root.add_subcommand("material", "Makes and describes SubEdit materials");
-    return {material, {}, {addBake(*material), addInfo(*material)}};
+    CLI::App* material =
+        root.add_subcommand("material", "Makes, edits and describes SubEdit materials");
+    return {material, {}, {addBake(*material), addInfo(*material), addMaterialEdit(*material)}};
 }
 
 } // namespace celadon::app

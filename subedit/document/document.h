@@ -8,9 +8,11 @@
 #include "subedit/paint/surface.h"
 #include "subedit/select/weight_mask.h"
 
+#include <bitset>
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,7 +33,15 @@ struct EditReport {
     std::size_t energyClamped = 0; ///< texels whose albedo would have been above 1
     std::size_t rangeClamped = 0;  ///< texels whose range would have needed more than the limit
     std::optional<float> grownRadiusMm; ///< r_s, if it had to grow
+
+    void add(const TexelOutcome& outcome) {
+        ++texels;
+        energyClamped += outcome.energyClamped ? 1 : 0;
+        rangeClamped += outcome.rangeClamped ? 1 : 0;
+    }
 };
+
+struct TileBefore;
 
 /// What has changed since takeChanges() was last called.
 struct DocumentChanges {
@@ -90,26 +100,38 @@ public:
 private:
     struct Entry;
     struct OpenStroke;
+    class EntrySource;
+    friend struct OpenStroke;
 
-    [[nodiscard]] WeightMask selectedMask(const StrokeMask& stroke,
-                                          std::span<const Surface::Texel> texels) const;
+    // Doing (document.cpp).
     [[nodiscard]] WeightMask strokeMask(const StrokeCommand& stroke) const;
-    EditReport applyMasked(const EditOperator& op, Entry& entry);
-    void evaluateTiles(const PreparedOperator& prepared, const Entry& entry, EditReport& report,
-                       float& neededMm);
+    bool setStrokeWeight(const StrokeMask& dabs, Surface::Texel texel, WeightMask& mask) const;
+    [[nodiscard]] WeightMask selected(const WeightMask& mask) const;
+    void setSelection(const WeightMask& selection);
+    void applyMasked(Entry& entry);
     void saveTiles(Entry& entry);
-    void restoreTiles(const Entry& entry);
+    float evaluateTiles(const PreparedOperator& prepared, Entry& entry);
     void grow(const ProfileLayout& to, Entry& entry);
-    void commit(std::unique_ptr<Entry> entry);
-    void undoGrowths(const Entry& entry);
-    void backUpTiles(std::span<const std::size_t> texels);
-    [[nodiscard]] const float* backupOf(std::size_t texel, int& tile, std::size_t& cell) const;
-    float evaluateStroke(std::span<const std::size_t> texels);
-    void restoreStroke();
     void markTile(int tile);
     void markAll();
     [[nodiscard]] float* texelData(std::size_t texel);
-    [[nodiscard]] glm::vec3 positionOf(Surface::Texel texel) const;
+
+    // The stroke in hand (document_stroke.cpp).
+    void backUpTiles(std::span<const std::size_t> texels);
+    float evaluateStroke(std::span<const std::size_t> texels);
+    void restoreStroke();
+
+    // Undoing (document_history.cpp).
+    void commit(std::unique_ptr<Entry> entry);
+    void trim();
+    [[nodiscard]] std::bitset<WeightMask::kTileSize * WeightMask::kTileSize>
+    irreplaceable(std::size_t index, int tile) const;
+    static void keepOnly(TileBefore& before,
+                         const std::bitset<WeightMask::kTileSize * WeightMask::kTileSize>& wanted);
+    void complete(std::size_t index, TileBefore& wanted) const;
+    [[nodiscard]] ProfileLayout layoutBefore(std::size_t index) const;
+    void restoreTiles(const Entry& entry);
+    void undoGrowths(const Entry& entry);
 
     std::shared_ptr<MaterialMap> mMaterial;
     std::shared_ptr<const Surface> mSurface;
@@ -118,7 +140,9 @@ private:
     WeightMask mSelection;
 
     std::vector<std::unique_ptr<Entry>> mHistory;
-    std::size_t mDone = 0; ///< entries in effect; the rest can be redone
+    std::size_t mDone = 0;        ///< entries in effect; the rest can be redone
+    std::size_t mTrimmed = 0;     ///< entries that keep only what is irreplaceable
+    std::size_t mBeforeBytes = 0; ///< of all profiles that entries keep
     std::unique_ptr<OpenStroke> mStroke;
 
     std::vector<bool> mChangedTiles;

@@ -2,6 +2,7 @@
 
 #include "subedit/edit/edit_operator.h"
 #include "subedit/paint/brush.h"
+#include "subedit/select/selection.h"
 
 #include <string>
 #include <variant>
@@ -27,7 +28,24 @@ struct StrokeCommand {
     bool operator==(const StrokeCommand&) const = default;
 };
 
-using EditCommand = std::variant<ApplyCommand, StrokeCommand>;
+/// An operator where a propagation leads to, and where selected.
+struct PropagateCommand {
+    EditOperator op;
+    Propagation propagation;
+    bool operator==(const PropagateCommand&) const = default;
+};
+
+/// Changes the selection, and no texel.
+struct SelectCommand {
+    SelectionStep step;
+    SelectMode mode = SelectMode::Replace;
+    bool operator==(const SelectCommand&) const = default;
+};
+
+using EditCommand = std::variant<ApplyCommand, StrokeCommand, PropagateCommand, SelectCommand>;
+
+/// The operator of a command; null for a selection.
+[[nodiscard]] const EditOperator* operatorOf(const EditCommand& command);
 
 /// For a menu: "scale-albedo stroke".
 [[nodiscard]] std::string commandTitle(const EditCommand& command);

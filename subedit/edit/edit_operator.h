@@ -1,9 +1,11 @@
 #pragma once
 
 #include "subedit/effective_radius.h"
+#include "subedit/paint/brush.h"
 
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -79,10 +81,54 @@ struct Gradient {
     bool operator==(const Gradient&) const = default;
 };
 
-using EditOperator =
-    std::variant<ScaleAlbedo, SetAlbedo, Tint, ScaleRange, SetRange, SetShape, Mix, Gradient>;
+/// Differences from the local mean of ln P become 1 + w * amount times as large: -1 smooths them
+/// away, 1 doubles them.
+struct Heterogeneity {
+    float amount = 0.5f;   ///< in [-1, 4]
+    float radiusMm = 5.0f; ///< of the neighborhood that the mean is taken over, on the surface
+    bool operator==(const Heterogeneity&) const = default;
+};
 
-/// As in files: "scale-albedo", "mix", ...
-[[nodiscard]] std::string_view operatorName(const EditOperator& op);
+/// Where something is taken from: as if the surface around `from` were laid onto that around `to`,
+/// normal on normal, turned about it by an angle.
+struct Placement {
+    StrokePoint from; ///< pressure does not matter
+    StrokePoint to;
+    float angleDegrees = 0.0f; ///< counter-clockwise, seen from outside
+    bool operator==(const Placement&) const = default;
+};
+
+/// As Mix with amount 1, of the profile at the place that lies there.
+struct Clone {
+    Placement placement;
+    bool operator==(const Clone&) const = default;
+};
+
+/// The heterogeneity of another place on the base of this one: ln P becomes the local mean here
+/// plus the difference from the local mean there (pattern transfer).
+struct TransferPattern {
+    Placement placement;
+    float radiusMm = 5.0f; ///< of the neighborhoods that the means are taken over
+    float strength = 1.0f; ///< of the pattern, in [0, 4]
+    bool operator==(const TransferPattern&) const = default;
+};
+
+using EditOperator = std::variant<ScaleAlbedo, SetAlbedo, Tint, ScaleRange, SetRange, SetShape, Mix,
+                                  Gradient, Heterogeneity, Clone, TransferPattern>;
+
+/// A texel's result depends on that texel alone.
+[[nodiscard]] inline bool isLocal(const EditOperator& op) {
+    return !std::holds_alternative<Heterogeneity>(op) && !std::holds_alternative<Clone>(op) &&
+           !std::holds_alternative<TransferPattern>(op);
+}
+
+/// As in files, in the order of EditOperator.
+inline constexpr std::array<std::string_view, std::variant_size_v<EditOperator>> kOperatorNames{
+    "scale-albedo", "set-albedo", "tint",          "scale-range", "set-range",       "set-shape",
+    "mix",          "gradient",   "heterogeneity", "clone",       "transfer-pattern"};
+
+[[nodiscard]] inline std::string_view operatorName(const EditOperator& op) {
+    return kOperatorNames[op.index()];
+}
 
 } // namespace celadon::subedit

@@ -21,9 +21,9 @@ struct Brush {
 /// One point of a path: in space, or on the map (`uv`), which then gives position and normal.
 struct StrokePoint {
     glm::vec3 positionMm{0.0f};
-    glm::vec3 normal{0.0f};      ///< unit length; zero takes that of the nearest texel
+    glm::vec3 normal{0.0f};           ///< unit length; zero takes that of the nearest texel
     std::optional<glm::vec2> uv = {}; ///< v down, in [0, 1]
-    float pressure = 1.0f;       ///< scales the flow, in [0, 1]
+    float pressure = 1.0f;            ///< scales the flow, in [0, 1]
     bool operator==(const StrokePoint&) const = default;
 };
 

@@ -1,7 +1,9 @@
 #include "subedit/paint/stroke_mask.h"
 
 #include "subedit/assert.h"
+#include "subedit/errors.h"
 
+#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -12,6 +14,8 @@
 namespace celadon::subedit {
 
 namespace {
+
+constexpr float kMostDabsBetweenPoints = 1e5f; ///< no hand does; a file might
 
 /// Weight of a texel whose normal makes this cosine with the dab's: paint ends where the surface
 /// turns by 90 degrees from the brush, without an edge.
@@ -105,8 +109,15 @@ void StrokeMask::add(const StrokePoint& given) {
     }
     const StrokePoint last = *mLast;
     const float length = glm::distance(last.positionMm, point.positionMm);
+    const float stepMm = mBrush.spacing * mBrush.radiusMm;
+    if (length / stepMm > kMostDabsBetweenPoints) {
+        throw InputError("a stroke",
+                         fmt::format("needs {:.0f} dabs between two points {:g} mm apart",
+                                     length / stepMm, length),
+                         "take a larger brush or spacing");
+    }
     float along = mUntilNextMm;
-    for (; along <= length; along += mBrush.spacing * mBrush.radiusMm) {
+    for (; along <= length; along += stepMm) {
         const float t = along / length;
         const glm::vec3 normal = normalizedOr(glm::mix(last.normal, point.normal, t), point.normal);
         glm::vec3 center = glm::mix(last.positionMm, point.positionMm, t);

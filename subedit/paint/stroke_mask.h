@@ -21,6 +21,7 @@ public:
 
     /// Goes on to `point`: a dab at the first one, then one every `spacing` radii along the path.
     /// The same points give the same weights, however they are grouped into calls.
+    /// @throws InputError if two points are so far apart that 100,000 dabs lie between them
     void add(const StrokePoint& point);
 
     /// Weight in [0, 1] of a covered texel; background texels have that of their source.

@@ -12,6 +12,15 @@ bool isAllZero(const WeightMask::Tile& tile) {
     return std::all_of(tile.begin(), tile.end(), [](WeightMask::Weight w) { return w == 0; });
 }
 
+const std::shared_ptr<const WeightMask::Tile>& fullTile() {
+    static const std::shared_ptr<const WeightMask::Tile> tile = [] {
+        auto full = std::make_shared<WeightMask::Tile>();
+        full->fill(WeightMask::kFull);
+        return full;
+    }();
+    return tile;
+}
+
 } // namespace
 
 WeightMask::WeightMask(int width, int height)
@@ -25,9 +34,7 @@ WeightMask::WeightMask(int width, int height)
 
 WeightMask WeightMask::full(int width, int height) {
     WeightMask mask(width, height);
-    auto tile = std::make_shared<Tile>();
-    tile->fill(kFull);
-    std::fill(mask.mTiles.begin(), mask.mTiles.end(), std::shared_ptr<const Tile>(tile));
+    std::fill(mask.mTiles.begin(), mask.mTiles.end(), fullTile());
     return mask;
 }
 
@@ -94,10 +101,19 @@ TexelRect WeightMask::bounds() const {
     return rect;
 }
 
-void WeightMask::dropZeroTiles() {
-    for (auto& tile : mTiles) {
-        if (tile != nullptr && isAllZero(*tile)) {
+void WeightMask::compact(const WeightMask& like) {
+    CELADON_ASSERT(like.mTiles.size() == mTiles.size());
+    for (std::size_t t = 0; t < mTiles.size(); ++t) {
+        auto& tile = mTiles[t];
+        if (tile == nullptr || tile == fullTile()) {
+            continue;
+        }
+        if (isAllZero(*tile)) {
             tile.reset();
+        } else if (*tile == *fullTile()) {
+            tile = fullTile();
+        } else if (like.mTiles[t] != nullptr && *tile == *like.mTiles[t]) {
+            tile = like.mTiles[t];
         }
     }
 }

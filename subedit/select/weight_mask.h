@@ -47,13 +47,20 @@ public:
     [[nodiscard]] TexelRect tileRect(int index) const;
     [[nodiscard]] int tileOf(int x, int y) const { return y / kTileSize * mTilesX + x / kTileSize; }
 
+    /// Place within its tile: row and column of a tile of full size.
+    [[nodiscard]] static std::size_t cell(int x, int y) {
+        return static_cast<std::size_t>(y % kTileSize) * kTileSize +
+               static_cast<std::size_t>(x % kTileSize);
+    }
+
     /// No texel has any weight.
     [[nodiscard]] bool isZero() const;
     [[nodiscard]] std::size_t countNonZero() const;
     /// The smallest rectangle of whole tiles with any weight.
     [[nodiscard]] TexelRect bounds() const;
-    /// Gives back tiles that are all zero.
-    void dropZeroTiles();
+    /// Gives back tiles that are all zero, and shares those that are all full, or as in `like`.
+    void compact(const WeightMask& like);
+    void compact() { compact(*this); }
     /// Bytes of tiles that no other mask shares.
     [[nodiscard]] std::size_t ownBytes() const;
 
@@ -86,11 +93,6 @@ public:
     [[nodiscard]] bool operator==(const WeightMask& other) const;
 
 private:
-    [[nodiscard]] static std::size_t cell(int x, int y) {
-        return static_cast<std::size_t>(y % kTileSize) * kTileSize +
-               static_cast<std::size_t>(x % kTileSize);
-    }
-
     int mWidth = 0;
     int mHeight = 0;
     int mTilesX = 0;

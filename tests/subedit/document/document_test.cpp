@@ -32,7 +32,13 @@ EditOperator randomOperator(std::mt19937& random) {
     const auto color = [&] { return glm::vec3(unit(random), unit(random), unit(random)) + 0.1f; };
     const MaterialMap exponential = test::exponentialMaterial(16, 18.0f, color() * 3.0f, 0.02f);
     const StoredProfile profile{16, 18.0f, exponential.logProfile};
-    switch (random() % 7) {
+    switch (random() % 10) {
+    case 7:
+        return Heterogeneity{2.0f * unit(random) - 1.0f, 1.0f + 8.0f * unit(random)};
+    case 8:
+        return Clone{{point(20.0f, 60.0f), point(40.0f, 30.0f), 90.0f * unit(random)}};
+    case 9:
+        return TransferPattern{{point(20.0f, 60.0f), point(40.0f, 30.0f), 0.0f}, 5.0f, 1.5f};
     case 0:
         return ScaleAlbedo{color() * 1.5f};
     case 1:
@@ -103,6 +109,74 @@ TEST(Document, AStrokeAsItHappensIsTheStrokeAtOnce) {
         ASSERT_TRUE(live.undo());
         ASSERT_EQ(live.material().logProfile, original.logProfile) << operatorName(op);
     }
+}
+
+/// With no memory for profiles all but what is irreplaceable is computed again.
+TEST(Document, UndoGivesBackTheBytesWhenTheHistoryIsTrimmed) {
+    const MaterialMap original = test::varyingMaterial(kSize, kSize, 16);
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+        Document document(original, flat(), {.historyBytes = 0});
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<float> place(5.0f, 75.0f);
+        std::vector<std::vector<float>> states{original.logProfile};
+        for (int i = 0; i < 40; ++i) {
+            // Undone and done again on the way, now and then another way.
+            if (random() % 4 == 0 && document.undo()) {
+                states.pop_back();
+                ASSERT_EQ(document.material().logProfile, states.back()) << "step " << i;
+                if (random() % 2 == 0) {
+                    ASSERT_TRUE(document.redo());
+                    states.push_back(document.material().logProfile);
+                }
+                continue;
+            }
+            const EditOperator op = randomOperator(random);
+            if (random() % 6 == 0) {
+                document.execute(ApplyCommand{op});
+            } else if (random() % 6 == 0) {
+                document.execute(SelectCommand{
+                    SelectStroke{{.radiusMm = 30.0f}, {}, {point(place(random), place(random))}},
+                    random() % 2 == 0 ? SelectMode::Replace : SelectMode::Add});
+            } else {
+                document.execute(
+                    stroke(op, place(random), place(random), place(random), place(random)));
+            }
+            states.push_back(document.material().logProfile);
+        }
+        const std::vector<EditCommand> commands = document.commands();
+        for (std::size_t i = states.size() - 1; i-- > 0;) {
+            ASSERT_TRUE(document.undo());
+            ASSERT_EQ(document.material().logProfile, states[i]) << "seed " << seed << ", " << i;
+        }
+        EXPECT_EQ(document.material().maxRadiusMm, original.maxRadiusMm);
+        for (std::size_t i = 1; i < states.size(); ++i) {
+            ASSERT_TRUE(document.redo());
+            ASSERT_EQ(document.material().logProfile, states[i]) << "seed " << seed << ", " << i;
+        }
+        // And the commands alone, on the material as it was, give the same.
+        Document replayed(original, flat());
+        for (const EditCommand& command : commands) {
+            replayed.execute(command);
+        }
+        ASSERT_EQ(replayed.material().logProfile, states.back());
+    }
+}
+
+TEST(Document, SelectionBoundsEditsAndIsUndone) {
+    const MaterialMap original = test::varyingMaterial(kSize, kSize, 16);
+    Document document(original, flat());
+    document.execute(SelectCommand{SelectStroke{{.radiusMm = 10.0f}, {}, {point(20.0f, 20.0f)}},
+                                   SelectMode::Replace});
+    EXPECT_TRUE(document.takeChanges().selectionChanged);
+    const EditReport report = document.execute(ApplyCommand{ScaleAlbedo{glm::vec3(0.5f)}});
+    EXPECT_EQ(report.texels, document.selection().countNonZero());
+    EXPECT_NE(document.material().logKnot(20, 20, 0), original.logKnot(20, 20, 0));
+    EXPECT_EQ(document.material().logKnot(40, 20, 0), original.logKnot(40, 20, 0));
+    ASSERT_TRUE(document.undo());
+    EXPECT_EQ(document.undoTitle(), "select stroke");
+    ASSERT_TRUE(document.undo());
+    EXPECT_EQ(document.selection(), WeightMask::full(kSize, kSize));
+    EXPECT_EQ(document.material().logProfile, original.logProfile);
 }
 
 TEST(Document, ACanceledStrokeLeavesNothing) {

@@ -24,11 +24,17 @@ StoredProfile stored(std::vector<float> logProfile) {
 std::vector<float> edited(const EditOperator& op, const std::vector<float>& before,
                           float weight = 1.0f, TexelOutcome* outcome = nullptr,
                           float largestRadiusMm = 120.0f) {
-    const PreparedOperator prepared(op, kLayout, largestRadiusMm);
+    static const Surface surface(makeFlatSurface(1, 1, 1.0f)); // its texel is at (0.5, -0.5, 0)
+    MaterialMap map;
+    map.width = map.height = 1;
+    map.segments = kLayout.segments;
+    map.maxRadiusMm = kLayout.maxRadiusMm;
+    map.logProfile = before;
+    const MapSource source(map);
+    const PreparedOperator prepared(op, kLayout, largestRadiusMm, surface, source);
     PreparedOperator::Worker worker(prepared);
     std::vector<float> after(before.size());
-    const TexelOutcome result =
-        worker.evaluate(before.data(), weight, {0.5f, 0.0f, 0.0f}, after.data());
+    const TexelOutcome result = worker.evaluate(0, before.data(), weight, after.data());
     if (outcome != nullptr) {
         *outcome = result;
     }
