@@ -308,13 +308,26 @@ void Editor::handleKey(const InputEvent& event) {
         mLayout.helpShown = false;
         mTools.cancel();
         break;
+    case Action::Paint:
+        mSession.perform({"tool.choose", {{"name", "paint"}}});
+        break;
+    case Action::Select:
+        mSession.perform({"tool.choose", {{"name", "select"}}});
+        break;
+    case Action::SelectAll:
+        mSession.perform({"select.change", {{"what", "all"}}});
+        break;
+    case Action::SelectNone:
+        mSession.perform({"select.change", {{"what", "none"}}});
+        break;
+    case Action::SelectInvert:
+        mSession.perform({"select.change", {{"what", "invert"}}});
+        break;
     case Action::Save:
         mActions.save();
         break;
     case Action::SaveAs:
     case Action::Open:
-    case Action::Select:
-    case Action::Paint:
     case Action::Play:
         break;
     }
