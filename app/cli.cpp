@@ -2,6 +2,7 @@
 
 #include "app/command.h"
 #include "app/command_compare.h"
+#include "app/command_edit.h"
 #include "app/command_info.h"
 #include "app/command_material.h"
 #include "app/command_profile.h"
@@ -164,8 +165,8 @@ int runCommandLine(int argc, const char* const* argv) {
     bool verbose = false;
     const Command root{&app,
                        {},
-                       {addRenderCommand(app), addProfileCommand(app), addMaterialCommand(app),
-                        addCompareCommand(app), addInfoCommand(app)}};
+                       {addEditCommand(app), addRenderCommand(app), addProfileCommand(app),
+                        addMaterialCommand(app), addCompareCommand(app), addInfoCommand(app)}};
     addCommonOptions(root, verbose);
     app.set_version_flag("--version", "celadon " CELADON_VERSION, "Shows the version")
         ->group("General");

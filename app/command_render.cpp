@@ -9,6 +9,7 @@
 #include "renderer/output/image_io.h"
 #include "renderer/output/tone_map.h"
 #include "renderer/scene/camera.h"
+#include "renderer/splatting/splatting_solver.h"
 #include "subedit/errors.h"
 #include "subedit/map/range_table_file.h"
 
@@ -35,8 +36,8 @@ void refuseUnbuilt(const RenderOptions& options) {
     if (options.solver == Solver::PathTraced) {
         refuse("--solver path-traced");
     }
-    if (options.backend == Backend::Tiled || options.backend == Backend::Cpu) {
-        refuse(std::string("--backend ") + backendName(options.backend));
+    if (options.backend == SplatBackendKind::Tiled) {
+        refuse("--backend tiled");
     }
     if (options.animation || options.timeSeconds) {
         refuse("--animation");
@@ -62,8 +63,9 @@ FrameSettings frameSettings(const RenderOptions& options) {
         break;
     }
     SplattingSettings& splatting = settings.splatting;
+    splatting.scheme = options.scheme;
+    splatting.backend = options.backend;
     if (options.scheme == Scheme::Hierarchical) {
-        splatting.scheme = celadon::Scheme::Hierarchical;
         splatting.energy = 1.0; // far samples are cheap: nothing is cut
     }
     if (options.quality == Quality::Draft) {
@@ -92,8 +94,7 @@ FrameSettings frameSettings(const RenderOptions& options) {
     splatting.energy = options.energy.value_or(splatting.energy);
     splatting.adaptive = options.adaptive;
     splatting.multiresolution = options.multiresolution;
-    settings.exitFresnel = options.exitFresnel == ExitFresnel::Paper ? celadon::ExitFresnel::Paper
-                                                                     : celadon::ExitFresnel::Exact;
+    settings.exitFresnel = options.exitFresnel;
     settings.pointSamples = options.pointSamples;
     settings.specular = options.specular;
     settings.coverageSamples = options.samples;
@@ -110,7 +111,9 @@ RenderStats statsHead(const RenderOptions& options, const FrameSettings& setting
     stats.contextVersion = context.version();
     stats.solver = solverName(options.solver);
     stats.scheme = schemeName(options.scheme);
-    stats.backend = options.solver == Solver::Splatting ? "raster" : "cpu";
+    stats.backend = options.solver == Solver::Splatting
+                        ? backendName(resolveBackend(options.backend, context))
+                        : "cpu";
     stats.width = settings.size.x;
     stats.height = settings.size.y;
     stats.irradianceSize = settings.splatting.irradianceSize;

@@ -255,7 +255,7 @@ const char* schemeName(Scheme scheme) {
 const char* qualityName(Quality quality) {
     return kQualities.at(static_cast<std::size_t>(quality)).data();
 }
-const char* backendName(Backend backend) {
+const char* backendName(SplatBackendKind backend) {
     return kBackends.at(static_cast<std::size_t>(backend)).data();
 }
 

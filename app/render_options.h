@@ -3,6 +3,8 @@
 #include "app/argument.h"
 #include "renderer/gl/context.h"
 #include "renderer/output/tone_map.h"
+#include "renderer/shading/fresnel.h"
+#include "renderer/splatting/splatting_settings.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -22,18 +24,12 @@ class App;
 namespace celadon::app {
 
 enum class Solver { Splatting, ImageReference, SurfaceReference, PathTraced };
-enum class Scheme { Paper, Hierarchical };
 enum class Quality { Draft, Default, Final };
-enum class Backend { Auto, Raster, Tiled, Cpu };
-enum class ExitFresnel {
-    Exact, ///< c = 2 integral of F_t cos sin: what leaves is B
-    Paper  ///< c = 1 (Chen et al. 2012, eq. 7)
-};
 
 [[nodiscard]] const char* solverName(Solver solver);
 [[nodiscard]] const char* schemeName(Scheme scheme);
 [[nodiscard]] const char* qualityName(Quality quality);
-[[nodiscard]] const char* backendName(Backend backend);
+[[nodiscard]] const char* backendName(SplatBackendKind backend);
 
 struct RenderOptions {
     // Input and output
@@ -73,7 +69,7 @@ struct RenderOptions {
     Solver solver = Solver::Splatting;
     Scheme scheme = Scheme::Hierarchical;
     Quality quality = Quality::Default;
-    Backend backend = Backend::Auto;
+    SplatBackendKind backend = SplatBackendKind::Auto;
     gl::ContextKind context = gl::ContextKind::Auto;
     std::optional<LevelCounts> levels;
     std::optional<int> irradianceSize;

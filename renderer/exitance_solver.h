@@ -6,6 +6,7 @@
 #include "renderer/scene/camera.h"
 #include "renderer/scene/world.h"
 
+#include <atomic>
 #include <span>
 
 /// The one seam of the renderer: lit geometry, view and material in, radiant exitance B of every
@@ -24,6 +25,13 @@ struct SolveInput {
     SplattingBuffer& view;         ///< level 0 drawn; its frame block bound
     const CameraView& camera;
     std::span<const Light> lights; ///< positions in mm
+    /// Set from another thread when nobody waits for the result any more: a solver may then return
+    /// early, with anything. Null: never.
+    const std::atomic<bool>* interrupt = nullptr;
+
+    [[nodiscard]] bool isInterrupted() const {
+        return interrupt != nullptr && interrupt->load(std::memory_order_relaxed);
+    }
 };
 
 class ExitanceSolver {

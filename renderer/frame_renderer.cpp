@@ -1,7 +1,6 @@
 #include "renderer/frame_renderer.h"
 
 #include "renderer/frame_layers.h"
-#include "renderer/gpu_world.h"
 #include "renderer/reference/reference_solvers.h"
 #include "renderer/shading/antialiasing.h"
 #include "renderer/shading/direct_light.h"
@@ -43,14 +42,22 @@ StageMilliseconds sumStages(const std::vector<gl::StageTime>& stages, int splatt
 
 } // namespace
 
+GpuScene::GpuScene(const World& theWorld, const FrameSettings& settings)
+    : world(theWorld),
+      gpuWorld(theWorld),
+      materials(theWorld.materials, settings.splatting.energy, settings.splatting.epsilon,
+                settings.exitFresnel, settings.splatting.rangeTable) {}
+
 struct FrameRenderer::Passes {
-    Passes(const gl::Context& glContext, const World& theWorld, const FrameSettings& theSettings)
-        : world(theWorld),
+    Passes(const gl::Context& glContext, std::shared_ptr<const GpuScene> theScene,
+           const FrameSettings& theSettings)
+        : scene(std::move(theScene)),
+          world(scene->world),
+          shaders(scene->shaders),
+          gpuWorld(scene->gpuWorld),
+          materials(scene->materials),
           settings(theSettings),
           timer(glContext),
-          gpuWorld(theWorld),
-          materials(theWorld.materials, theSettings.splatting.energy, theSettings.splatting.epsilon,
-                    theSettings.exitFresnel, theSettings.splatting.rangeTable),
           view(shaders, materials.count(), theSettings.size,
                theSettings.solver == SolverKind::Splatting
                    ? SplattingSolver::viewLevels(theSettings.splatting)
@@ -60,8 +67,9 @@ struct FrameRenderer::Passes {
           antialiasing(shaders, view) {
         switch (settings.solver) {
         case SolverKind::Splatting:
-            solver =
-                std::make_unique<SplattingSolver>(shaders, materials, view, settings.splatting);
+            settings.splatting.backend = resolveBackend(settings.splatting.backend, glContext);
+            solver = std::make_unique<SplattingSolver>(shaders, world.materials, materials, view,
+                                                       settings.splatting);
             break;
         case SolverKind::ImageReference:
             solver = std::make_unique<ImageReferenceSolver>(shaders, materials.count(),
@@ -74,14 +82,17 @@ struct FrameRenderer::Passes {
         }
     }
 
-    void draw(const Camera& camera, std::span<const Light> lights);
+    /// @return whether the frame is complete
+    bool draw(const Camera& camera, std::span<const Light> lights,
+              const std::atomic<bool>* interrupt = nullptr);
 
+    std::shared_ptr<const GpuScene> scene;
     const World& world;
+    const gl::ShaderLibrary& shaders;
+    const GpuWorld& gpuWorld;
+    const GpuMaterials& materials;
     FrameSettings settings;
-    gl::ShaderLibrary shaders;
     gl::StageTimer timer;
-    GpuWorld gpuWorld;
-    GpuMaterials materials;
     SplattingBuffer view;
     std::unique_ptr<ExitanceSolver> solver;
     DirectLight directLight;
@@ -91,29 +102,56 @@ struct FrameRenderer::Passes {
     const gl::Texture* exitance = nullptr;
 };
 
-void FrameRenderer::Passes::draw(const Camera& camera, std::span<const Light> lights) {
+bool FrameRenderer::Passes::draw(const Camera& camera, std::span<const Light> lights,
+                                 const std::atomic<bool>* interrupt) {
     cameraView = makeCameraView(camera, settings.size.x, settings.size.y, world.sceneSphere);
     materials.bind();
     {
         const auto scope = timer.measure("splattingBuffer");
         view.draw(gpuWorld, cameraView, 2.0 * world.scatteringSphere.radius);
     }
-    exitance = &solver->solve({world, gpuWorld, materials, view, cameraView, lights}, timer);
+    const SolveInput input{world, gpuWorld, materials, view, cameraView, lights, interrupt};
+    exitance = &solver->solve(input, timer);
+    if (input.isInterrupted()) {
+        return false;
+    }
     const auto scope = timer.measure("shading");
     directLight.shade(lights, world.sceneSphere, gpuWorld, view, settings.specular);
     shading.shade(view, *exitance, directLight.radiance());
     antialiasing.resolve(gpuWorld, camera, world.sceneSphere, view, shading.radiance(),
                          settings.coverageSamples);
+    return true;
 }
 
 FrameRenderer::FrameRenderer(const gl::Context& context, const World& world,
                              const FrameSettings& settings)
-    : mPasses(std::make_unique<Passes>(context, world, settings)) {}
+    : FrameRenderer(context, std::make_shared<const GpuScene>(world, settings), settings) {}
+
+FrameRenderer::FrameRenderer(const gl::Context& context, std::shared_ptr<const GpuScene> scene,
+                             const FrameSettings& settings)
+    : mPasses(std::make_unique<Passes>(context, std::move(scene), settings)) {}
 
 FrameRenderer::~FrameRenderer() = default;
 
 ExitanceSolver& FrameRenderer::solver() {
     return *mPasses->solver;
+}
+
+const SplattingBuffer& FrameRenderer::view() const {
+    return mPasses->view;
+}
+
+const gl::Texture& FrameRenderer::exitance() const {
+    return *mPasses->exitance;
+}
+
+StageMilliseconds FrameRenderer::takeTimes() {
+    return sumStages(mPasses->timer.take(), mPasses->view.levels());
+}
+
+const gl::Texture* FrameRenderer::draw(const Camera& camera, std::span<const Light> lights,
+                                       const std::atomic<bool>* interrupt) {
+    return mPasses->draw(camera, lights, interrupt) ? &mPasses->antialiasing.color() : nullptr;
 }
 
 RenderedFrame FrameRenderer::render(const Camera& camera, std::span<const Light> lights) {

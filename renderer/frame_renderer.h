@@ -2,7 +2,9 @@
 
 #include "renderer/exitance_solver.h"
 #include "renderer/gl/context.h"
+#include "renderer/gl/shader_library.h"
 #include "renderer/gpu_materials.h"
+#include "renderer/gpu_world.h"
 #include "renderer/output/frame_stats.h"
 #include "renderer/output/image.h"
 #include "renderer/scene/camera.h"
@@ -39,14 +41,41 @@ struct RenderedFrame {
     bool seesScattering = false; ///< some pixel's center sees scattering surface
 };
 
+/// Geometry and materials on the GPU. Renderers of several sizes and qualities may share it, as
+/// long as their settings agree on `energy`, `epsilon` and `exitFresnel`.
+struct GpuScene {
+    /// @param theWorld outlives the scene @throws ContextError, InputError
+    GpuScene(const World& theWorld, const FrameSettings& settings);
+
+    const World& world;
+    gl::ShaderLibrary shaders;
+    GpuWorld gpuWorld;
+    GpuMaterials materials;
+};
+
 class FrameRenderer {
 public:
     /// @throws ContextError, InputError, ShaderError
     FrameRenderer(const gl::Context& context, const World& world, const FrameSettings& settings);
+    FrameRenderer(const gl::Context& context, std::shared_ptr<const GpuScene> scene,
+                  const FrameSettings& settings);
     ~FrameRenderer();
 
     /// @param camera in mm @param lights positions in mm
     [[nodiscard]] RenderedFrame render(const Camera& camera, std::span<const Light> lights);
+
+    /// The same for a window: nothing is read back.
+    /// @param interrupt see SolveInput; may be null
+    /// @return RGBA32F, rows from the bottom, linear radiance, premultiplied; valid until the next
+    ///         call. Null when interrupted.
+    const gl::Texture* draw(const Camera& camera, std::span<const Light> lights,
+                            const std::atomic<bool>* interrupt);
+    /// Times of draw()s since the last call. Waits for the GPU.
+    [[nodiscard]] StageMilliseconds takeTimes();
+    /// The visible surface of the last frame.
+    [[nodiscard]] const SplattingBuffer& view() const;
+    /// B of the last frame at pixel centers, W/m^2; its mips are B^k accumulated.
+    [[nodiscard]] const gl::Texture& exitance() const;
 
     /// For tests and for views that explain: the solver and its buffers.
     [[nodiscard]] ExitanceSolver& solver();

@@ -4,6 +4,8 @@
 #include "renderer/gl/sampler.h"
 #include "renderer/gl/texture.h"
 #include "renderer/scene/world.h"
+#include "renderer/shading/fresnel.h"
+#include "subedit/map/texel_rect.h"
 
 #include <span>
 #include <vector>
@@ -13,8 +15,6 @@ namespace celadon {
 
 inline constexpr int kMaxMaterials = 4; ///< as material.glsl unrolls
 
-enum class ExitFresnel { Exact, Paper }; ///< c of DESIGN 1: so that what leaves is B, or 1
-
 class GpuMaterials {
 public:
     /// @param energy, epsilon as makeMaterialTables
@@ -22,6 +22,11 @@ public:
     /// @throws InputError for more than kMaxMaterials, or a map beyond the driver's texture sizes
     GpuMaterials(std::span<const MaterialPointer> materials, double energy, double epsilon,
                  ExitFresnel exitFresnel, std::span<const float> rangeTable = {});
+
+    /// Texels of a rectangle have changed. Neither size nor layout of the map may have; the range
+    /// table and the means stay as they were made.
+    /// @param map as it is now
+    void update(int material, const subedit::MaterialMap& map, const subedit::TexelRect& rect);
 
     /// Textures to units 8.., the uniform block to its binding point.
     void bind() const;
@@ -35,15 +40,18 @@ public:
     [[nodiscard]] float largestRadiusMm() const { return mLargestRadiusMm; } ///< largest r_s
     /// Knots that node profiles share: r_s the largest, spacing the finest, at most 256 segments.
     [[nodiscard]] int nodeSegments() const;
-    /// Rbar(T) of the first material's table.
-    [[nodiscard]] float minimalRadius(float pixelsPerRadius) const;
+    /// Rbar(T) (eq. 14).
+    [[nodiscard]] float minimalRadius(float pixelsPerRadius, int material = 0) const;
 
 private:
     gl::Buffer mBlock;
     std::vector<gl::Texture> mLogProfiles, mRadii, mKept, mFarEnergy;
     gl::Texture mRangeTable;
     gl::Sampler mMapSampler, mTableSampler;
-    std::vector<float> mFirstTable;
+    std::vector<float> mRangeTables; ///< one row a material
+    std::size_t mTableSize = 0;
+    std::vector<std::vector<double>> mMeanLogProfiles; ///< per material, for update()
+    double mEnergy = 1.0;
     bool mHomogeneous = false;
     float mMeanRadiusMm = 0.0f;
     float mKnotSpacingMm = 0.0f;

@@ -36,13 +36,12 @@ std::vector<double> meanLogProfile(const MaterialMap& map) {
     return mean;
 }
 
-void fillRadii(const MaterialMap& map, double energy, MaterialTables& tables) {
-    const std::size_t texels =
-        static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height);
-    tables.radii.assign(texels * 4, 0.0f);
-    tables.kept.assign(texels * 4, 1.0f);
-    tbb::parallel_for(0, map.height, [&](int y) {
-        for (int x = 0; x < map.width; ++x) {
+void fillRadii(const MaterialMap& map, const subedit::TexelRect& rect, double energy,
+               TexelTables& tables) {
+    tables.radii.assign(rect.texels() * 4, 0.0f);
+    tables.kept.assign(rect.texels() * 4, 1.0f);
+    tbb::parallel_for(rect.y, rect.bottom(), [&](int y) {
+        for (int x = rect.x; x < rect.right(); ++x) {
             const subedit::ProfileView profile = subedit::profileAt(map, x, y);
             const glm::dvec3 radius = subedit::effectiveRadiusMm(profile, 0.95);
             double cut = map.maxRadiusMm;
@@ -55,8 +54,8 @@ void fillRadii(const MaterialMap& map, double energy, MaterialTables& tables) {
                 kept = glm::clamp(inside / glm::max(total, glm::dvec3(kTinyEnergy)), 0.5, 1.0);
             }
             const std::size_t i =
-                4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
-                     static_cast<std::size_t>(x));
+                4 * (static_cast<std::size_t>(y - rect.y) * static_cast<std::size_t>(rect.width) +
+                     static_cast<std::size_t>(x - rect.x));
             tables.radii[i] = static_cast<float>(std::max({radius.x, radius.y, radius.z}));
             tables.radii[i + 1] = static_cast<float>(cut);
             tables.radii[i + 2] = static_cast<float>(std::min({radius.x, radius.y, radius.z}));
@@ -65,26 +64,20 @@ void fillRadii(const MaterialMap& map, double energy, MaterialTables& tables) {
             }
         }
     });
-    double sum = 0.0;
-    for (std::size_t t = 0; t < texels; ++t) {
-        sum += static_cast<double>(tables.radii[4 * t]);
-    }
-    tables.meanRadiusMm = static_cast<float>(sum / static_cast<double>(texels));
 }
 
-void fillFarEnergy(const MaterialMap& map, MaterialTables& tables) {
-    const std::vector<double> mean = meanLogProfile(map);
-    const std::size_t texels =
-        static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height);
+void fillFarEnergy(const MaterialMap& map, const subedit::TexelRect& rect,
+                   const std::vector<double>& mean, TexelTables& tables) {
+    const std::size_t texels = rect.texels();
     const int knots = map.knots();
     tables.logFarEnergy.assign(texels * static_cast<std::size_t>(knots) * 4, 0.0f);
     const double h = static_cast<double>(map.maxRadiusMm) / map.segments;
-    tbb::parallel_for(0, map.height, [&](int y) {
-        for (int x = 0; x < map.width; ++x) {
+    tbb::parallel_for(rect.y, rect.bottom(), [&](int y) {
+        for (int x = rect.x; x < rect.right(); ++x) {
             const float* logP = map.logProfile.data() + map.index(x, y, 0);
             const std::size_t texel =
-                static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
-                static_cast<std::size_t>(x);
+                static_cast<std::size_t>(y - rect.y) * static_cast<std::size_t>(rect.width) +
+                static_cast<std::size_t>(x - rect.x);
             for (std::size_t c = 0; c < 3; ++c) {
                 const auto product = [&](int k) {
                     const std::size_t i = static_cast<std::size_t>(k) * 3 + c;
@@ -105,10 +98,25 @@ void fillFarEnergy(const MaterialMap& map, MaterialTables& tables) {
 
 } // namespace
 
+TexelTables makeTexelTables(const MaterialMap& map, const subedit::TexelRect& rect, double energy,
+                            const std::vector<double>& meanLogProfile) {
+    TexelTables tables;
+    fillRadii(map, rect, energy, tables);
+    fillFarEnergy(map, rect, meanLogProfile, tables);
+    return tables;
+}
+
 MaterialTables makeMaterialTables(const MaterialMap& map, double energy, double epsilon) {
     MaterialTables tables;
-    fillRadii(map, energy, tables);
-    fillFarEnergy(map, tables);
+    tables.meanLogProfile = meanLogProfile(map);
+    tables.texels =
+        makeTexelTables(map, {0, 0, map.width, map.height}, energy, tables.meanLogProfile);
+    double sum = 0.0;
+    const std::size_t texels = tables.texels.radii.size() / 4;
+    for (std::size_t t = 0; t < texels; ++t) {
+        sum += static_cast<double>(tables.texels.radii[4 * t]);
+    }
+    tables.meanRadiusMm = static_cast<float>(sum / static_cast<double>(texels));
     const std::vector<float> radii = subedit::effectiveRadiusMap(map);
     const auto table = subedit::RangeTable::build(subedit::meanProfile(map, radii), epsilon);
     tables.rangeTable.assign(table.values().begin(), table.values().end());

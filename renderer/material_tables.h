@@ -1,6 +1,7 @@
 #pragma once
 
 #include "subedit/map/material_map.h"
+#include "subedit/map/texel_rect.h"
 
 #include <vector>
 
@@ -8,7 +9,8 @@
 /// and the range table. Computed on the CPU when a material changes. No GL here.
 namespace celadon {
 
-struct MaterialTables {
+/// The tables of a rectangle of the map, whose width and height these are.
+struct TexelTables {
     /// [height][width][4]: R_P (energy 0.95, longest channel), R_cut, R_P of the shortest channel,
     /// 0; mm
     std::vector<float> radii;
@@ -17,6 +19,12 @@ struct MaterialTables {
     /// [segments + 1][height][width][4]: ln of the integral of sqrt(P_x Pbar) r dr over [r_k, r_s],
     /// Pbar the exponential of the mean ln P over the map; what the accumulation divides out.
     std::vector<float> logFarEnergy;
+};
+
+struct MaterialTables {
+    TexelTables texels; ///< of the whole map
+    /// Pbar of `logFarEnergy`: [segments + 1][3] means of ln P.
+    std::vector<double> meanLogProfile;
     /// Rbar over log2 T in [0, 12], equally spaced (DESIGN 3.3, eq. 14).
     std::vector<float> rangeTable;
     float meanRadiusMm = 0.0f; ///< mean R_P over the texels
@@ -26,5 +34,11 @@ struct MaterialTables {
 /// @param epsilon of eq. 14
 [[nodiscard]] MaterialTables makeMaterialTables(const subedit::MaterialMap& map, double energy,
                                                 double epsilon);
+
+/// A part of the tables, anew.
+/// @param meanLogProfile any that all texels agree on: the one that the rest was made with
+[[nodiscard]] TexelTables makeTexelTables(const subedit::MaterialMap& map,
+                                          const subedit::TexelRect& rect, double energy,
+                                          const std::vector<double>& meanLogProfile);
 
 } // namespace celadon

@@ -47,22 +47,28 @@ float sampleRange() {
 #endif
 }
 
-const int kRadialTaps = 24;
+// Gauss-Legendre on [0, 1]: place and weight.
+const vec2 kGauss4[4] = vec2[](vec2(0.06943184, 0.17392742), vec2(0.33000948, 0.32607258),
+                               vec2(0.66999052, 0.32607258), vec2(0.93056816, 0.17392742));
+const vec2 kGauss6[6] = vec2[](vec2(0.03376524, 0.08566225), vec2(0.16939531, 0.18038079),
+                               vec2(0.38069041, 0.23395697), vec2(0.61930959, 0.23395697),
+                               vec2(0.83060469, 0.18038079), vec2(0.96623476, 0.08566225));
 
 // The mean over a disc of radius R whose center is at distance d, as an integral over the distance r:
-// whole circles up to R - d, then arcs of half angle acos((d^2 + r^2 - R^2) / (2 d r)). Points crowd
-// at both ends, where the arcs begin like a root and the profile is steep. Returns r and its weight.
-vec2 radialTap(int i, float d, float R) {
-    const int kInner = 8;
-    bool inner = d < R && i < kInner;
-    float low = inner ? 0.0 : abs(R - d);
-    float high = inner ? R - d : R + d;
-    int first = d < R && !inner ? kInner : 0;
-    int points = inner ? kInner : kRadialTaps - first;
-    float t = (float(i - first) + 0.5) / float(points);
-    float r = low + (high - low) * (0.5 - 0.5 * cos(3.14159265 * t));
-    float halfAngle = inner ? 3.14159265 : acos(clamp((d * d + r * r - R * R) / max(2.0 * d * r, 1e-20), -1.0, 1.0));
-    return vec2(r, r * halfAngle * sin(3.14159265 * t) * (high - low) / float(points));
+// whole circles up to R - d, then arcs of half angle acos((d^2 + r^2 - R^2) / (2 d r)), which begin and
+// end like a root: midpoints in an angle. Returns r and its weight. Paired with renderer/gather/pair_kernel.inl.
+vec2 radialTap(int i, int inner, int outer, float d, float R) {
+    float gap = abs(R - d);
+    if (i < inner) {
+        vec2 rule = inner == 4 ? kGauss4[i] : kGauss6[i];
+        float r = gap * rule.x;
+        return vec2(r, r * gap * 3.14159265 * rule.y);
+    }
+    float angle = 3.14159265 * (float(i - inner) + 0.5) / float(outer);
+    float width = R + d - gap;
+    float r = gap + width * (0.5 - 0.5 * cos(angle));
+    float halfAngle = acos(clamp((d * d + r * r - R * R) / max(2.0 * d * r, 1e-20), -1.0, 1.0));
+    return vec2(r, r * halfAngle * width * sin(angle) * 1.57079633 / float(outer));
 }
 
 #ifdef HIERARCHICAL
@@ -116,16 +122,20 @@ void main() {
         float closest = sqrt(closest2);
         float blur = sqrt(q);
         bool narrow = blur < 0.1 * closest && flux.w * blur < 0.25;
-        int count = narrow ? 1 : (closest < 4.0 * blur && flux.w * blur > 1.0 ? kRadialTaps : 3);
+        bool wide = closest < 4.0 * blur && flux.w * blur > 1.0;
         float range = min(materials[m].profile.x, sampleRange());
         float discRadius = sqrt(2.0) * blur;
+        bool steep = flux.w * blur > 4.0;
+        int inner = closest < discRadius ? (steep ? 6 : 4) : 0;
+        int outer = steep ? 10 : 8;
+        int count = narrow ? 1 : (wide ? inner + outer : 3);
         vec3 kernel = vec3(0.0);
         float total = 0.0;
         for (int i = 0; i < count; ++i) {
             float r2;
             float w = 1.0;
-            if (count == kRadialTaps) {
-                vec2 tap = radialTap(i, closest, discRadius);
+            if (wide) {
+                vec2 tap = radialTap(i, inner, outer, closest, discRadius);
                 r2 = tap.x * tap.x;
                 w = tap.y;
             } else if (count == 3) {

@@ -133,39 +133,79 @@ double MeanProfile::energyBeyond(double r) const {
     return mBeyond[i + 1] + linearEnergy(value(start), mSamples[i + 1], start, end - start);
 }
 
-MeanProfile meanProfile(const MaterialMap& map, std::span<const float> effectiveRadiusMm) {
-    const std::size_t texels = effectiveRadiusMm.size();
-    CELADON_ASSERT(texels ==
+MeanProfileSums::MeanProfileSums(const MaterialMap& map, std::span<const float> effectiveRadiusMm)
+    : mTilesX((map.width + kTileSize - 1) / kTileSize),
+      mTilesY((map.height + kTileSize - 1) / kTileSize),
+      mTiles(static_cast<std::size_t>(mTilesX) * static_cast<std::size_t>(mTilesY)),
+      mRowSums(static_cast<std::size_t>(mTilesY), std::vector<double>(kSamples)) {
+    update(map, effectiveRadiusMm, {0, 0, map.width, map.height});
+}
+
+void MeanProfileSums::update(const MaterialMap& map, std::span<const float> effectiveRadiusMm,
+                             const TexelRect& rect) {
+    CELADON_ASSERT(effectiveRadiusMm.size() ==
                    static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
+    if (rect.isEmpty()) {
+        return;
+    }
     const auto stride = static_cast<std::size_t>(map.knots()) * 3;
     const float h = map.maxRadiusMm / static_cast<float>(map.segments);
+    const int firstX = rect.x / kTileSize;
+    const int firstY = rect.y / kTileSize;
+    const int countX = (rect.right() - 1) / kTileSize - firstX + 1;
+    const int countY = (rect.bottom() - 1) / kTileSize - firstY + 1;
 
-    // Blocks of fixed size summed in a fixed order: the same bits whatever the number of cores.
-    constexpr std::size_t kBlock = 1024;
-    const std::size_t blocks = (texels + kBlock - 1) / kBlock;
-    std::vector<SampleArray> sums(blocks);
-    tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t block) {
-        SampleArray& sum = sums[block];
+    // Tiles summed each in a fixed order: the same bits whatever the number of cores.
+    tbb::parallel_for(0, countX * countY, [&](int i) {
+        const int tileX = firstX + i % countX;
+        const int tileY = firstY + i / countX;
+        Sum& sum = mTiles[static_cast<std::size_t>(tileY) * static_cast<std::size_t>(mTilesX) +
+                          static_cast<std::size_t>(tileX)];
         sum.fill(0.0f);
-        SampleArray samples;
+        Sum samples;
         TexelSampler sampler;
-        for (std::size_t i = block * kBlock; i < std::min(texels, (block + 1) * kBlock); ++i) {
-            const float samplesPerSegment = h / effectiveRadiusMm[i] * kMeanProfileIntervals;
-            sampler.sample(map.logProfile.data() + i * stride, map.segments, samplesPerSegment,
-                           samples);
-            const float scale = 1.0f / std::max(trapezoidEnergy(samples), 1e-30f);
-            for (std::size_t s = 0; s < kSamples; ++s) {
-                sum[s] += samples[s] * scale;
+        for (int y = tileY * kTileSize; y < std::min(map.height, (tileY + 1) * kTileSize); ++y) {
+            for (int x = tileX * kTileSize; x < std::min(map.width, (tileX + 1) * kTileSize); ++x) {
+                const std::size_t texel =
+                    static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
+                    static_cast<std::size_t>(x);
+                const float samplesPerSegment =
+                    h / effectiveRadiusMm[texel] * kMeanProfileIntervals;
+                sampler.sample(map.logProfile.data() + texel * stride, map.segments,
+                               samplesPerSegment, samples);
+                const float scale = 1.0f / std::max(trapezoidEnergy(samples), 1e-30f);
+                for (std::size_t s = 0; s < kSamples; ++s) {
+                    sum[s] += samples[s] * scale;
+                }
             }
         }
     });
+    for (int tileY = firstY; tileY < firstY + countY; ++tileY) {
+        std::vector<double>& row = mRowSums[static_cast<std::size_t>(tileY)];
+        row.assign(kSamples, 0.0);
+        for (int tileX = 0; tileX < mTilesX; ++tileX) {
+            const Sum& sum =
+                mTiles[static_cast<std::size_t>(tileY) * static_cast<std::size_t>(mTilesX) +
+                       static_cast<std::size_t>(tileX)];
+            for (std::size_t s = 0; s < kSamples; ++s) {
+                row[s] += static_cast<double>(sum[s]);
+            }
+        }
+    }
+}
+
+MeanProfile MeanProfileSums::mean() const {
     std::vector<double> mean(kSamples, 0.0);
-    for (const SampleArray& sum : sums) {
+    for (const std::vector<double>& row : mRowSums) {
         for (std::size_t s = 0; s < kSamples; ++s) {
-            mean[s] += static_cast<double>(sum[s]);
+            mean[s] += row[s];
         }
     }
     return MeanProfile(std::move(mean));
+}
+
+MeanProfile meanProfile(const MaterialMap& map, std::span<const float> effectiveRadiusMm) {
+    return MeanProfileSums(map, effectiveRadiusMm).mean();
 }
 
 } // namespace celadon::subedit

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "subedit/map/material_map.h"
+#include "subedit/map/texel_rect.h"
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -30,10 +32,32 @@ private:
     std::vector<double> mBeyond; ///< energyBeyond at the samples
 };
 
-/// Mean over all texels of P'(r) = C P(r R_P), C such that the integral of P' r dr over [0, 1]
-/// is 1. The three channels of a texel are summed before C is applied: they share one R_P (the
-/// largest), and so count by the energy that each brings. Texels count alike, whatever their
-/// albedo.
+/// Sums of P'(r) = C P(r R_P) over tiles of a map, C such that the integral of P' r dr over [0, 1]
+/// is 1: what the mean is made of, kept so that an edit costs only the tiles that it touched. The
+/// three channels of a texel are summed before C is applied: they share one R_P (the largest), and
+/// so count by the energy that each brings. Texels count alike, whatever their albedo.
+class MeanProfileSums {
+public:
+    static constexpr int kTileSize = 16; ///< texels on a side
+
+    /// @param effectiveRadiusMm R_P of each texel, as from effectiveRadiusMap()
+    MeanProfileSums(const MaterialMap& map, std::span<const float> effectiveRadiusMm);
+
+    /// Texels of `rect` have changed: the same bits as sums made anew.
+    void update(const MaterialMap& map, std::span<const float> effectiveRadiusMm,
+                const TexelRect& rect);
+
+    [[nodiscard]] MeanProfile mean() const;
+
+private:
+    using Sum = std::array<float, kMeanProfileIntervals + 1>;
+    int mTilesX = 0;
+    int mTilesY = 0;
+    std::vector<Sum> mTiles;                   ///< [tilesY][tilesX]
+    std::vector<std::vector<double>> mRowSums; ///< of each row of tiles, added in order
+};
+
+/// Mean over all texels, from sums made anew.
 /// @param effectiveRadiusMm R_P of each texel, as from effectiveRadiusMap()
 [[nodiscard]] MeanProfile meanProfile(const MaterialMap& map,
                                       std::span<const float> effectiveRadiusMm);

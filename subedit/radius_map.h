@@ -2,6 +2,7 @@
 
 #include "subedit/effective_radius.h"
 #include "subedit/map/material_map.h"
+#include "subedit/map/texel_rect.h"
 
 #include <span>
 #include <vector>
@@ -26,6 +27,11 @@ effectiveRadiusMaps(const MaterialMap& map, std::span<const double> energyFracti
 /// As above for one fraction.
 [[nodiscard]] std::vector<float> effectiveRadiusMap(const MaterialMap& map,
                                                     double energyFraction = 0.95);
+
+/// The texels of `rect` of an effectiveRadiusMap(), anew: the same bits as the whole map would get.
+/// @param radiusMm [height][width], as effectiveRadiusMap() returned it
+void updateEffectiveRadiusMap(const MaterialMap& map, const TexelRect& rect, double energyFraction,
+                              std::span<float> radiusMm);
 
 /// Diffuse albedo of every texel, [height][width][3].
 [[nodiscard]] std::vector<float> albedoMap(const MaterialMap& map);

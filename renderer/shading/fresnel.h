@@ -5,6 +5,11 @@
 /// `eta` is always the index beyond the boundary over the index on the side of the ray.
 namespace celadon {
 
+enum class ExitFresnel {
+    Exact, ///< c = 2 integral of F_t cos sin: what leaves is B (DESIGN 1)
+    Paper  ///< c = 1 (Chen et al. 2012, eq. 7)
+};
+
 /// Reflectance F_r of unpolarized light.
 /// @param cosTheta cosine between ray and normal, clamped to [0, 1]
 /// @param eta      relative index of refraction, > 0; below 1 the ray is inside the denser medium

@@ -34,10 +34,11 @@ public:
     [[nodiscard]] const gl::Texture& covariances() const { return mTargets[4]; }
     [[nodiscard]] const gl::Texture& extents() const { return mTargets[5]; }
     [[nodiscard]] const gl::Texture& kepts() const { return mTargets[6]; }
+    [[nodiscard]] const gl::Texture& target(int i) const { return mTargets[i]; }
+    static constexpr int kTargets = 7;
     [[nodiscard]] const gl::Texture& depthRanges() const { return mDepthRanges; }
 
 private:
-    static constexpr int kTargets = 7;
     int mSize, mLevels, mPaddedSize;
     gl::Texture mTargets[kTargets]; ///< RGBA32F, all levels
     gl::Texture mDepth;

@@ -30,7 +30,7 @@ public:
                const SampleSelection& selection, const GpuMaterials& materials);
 
     /// RGBA32F with the levels of the splatting buffer: B^k in W/m^2; alpha counts pairs.
-    [[nodiscard]] const gl::Texture& exitance() const { return mExitance; }
+    [[nodiscard]] gl::Texture& exitance() { return mExitance; }
 
 private:
     gl::Texture mExitance;

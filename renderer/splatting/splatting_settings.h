@@ -11,8 +11,17 @@ enum class Scheme {
     Hierarchical ///< both pyramids at every distance, cross-faded
 };
 
+/// What adds up the pairs; all of one meaning.
+enum class SplatBackendKind {
+    Auto,   ///< the faster for the driver: cpu where it is software, else raster
+    Raster, ///< geometry shader and blending, the paper's
+    Tiled,  ///< tiles gather in a compute shader
+    Cpu     ///< tiles gather on the processor; for software drivers, where a read-back is a copy
+};
+
 struct SplattingSettings {
     Scheme scheme = Scheme::Paper;
+    SplatBackendKind backend = SplatBackendKind::Auto;
     int irradianceSize = 512;    ///< N, texels on a side of the irradiance buffer
     int irradianceLevels = 6;    ///< 1: level 0 only
     int splattingLevels = 5;     ///< 1: full resolution only

@@ -130,7 +130,7 @@ TEST(RenderOptions, TakeEveryOption) {
     EXPECT_EQ(o.solver, Solver::ImageReference);
     EXPECT_EQ(o.scheme, Scheme::Hierarchical);
     EXPECT_EQ(o.quality, Quality::Final);
-    EXPECT_EQ(o.backend, Backend::Raster);
+    EXPECT_EQ(o.backend, SplatBackendKind::Raster);
     EXPECT_EQ(o.context, gl::ContextKind::Osmesa);
     EXPECT_EQ(o.levels->irradiance, 4);
     EXPECT_EQ(o.levels->splatting, 2);

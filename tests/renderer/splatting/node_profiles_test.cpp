@@ -31,10 +31,11 @@ TEST(NodeProfiles, AreMeansOfTheTexelsBelow) {
     const World world = test::makeWorld("builtin:sphere", material);
     FrameSettings settings = test::smallFrame(kPicture, 64);
     settings.layers = false;
+    settings.splatting.backend = SplatBackendKind::Raster;
     FrameRenderer renderer(*context, world, settings);
     const RenderedFrame frame = renderer.render(test::defaultCamera(world, kPicture),
                                                 std::array{test::frontLight({1.0, 0.6, 0.3})});
-    const auto& solver = dynamic_cast<SplattingSolver&>(renderer.solver());
+    const RasterBackend& solver = *dynamic_cast<SplattingSolver&>(renderer.solver()).raster();
     ASSERT_NE(solver.nodeProfiles(), nullptr);
     const IrradianceBuffer& buffer = solver.irradianceBuffer();
     const gl::Texture& profiles = solver.nodeProfiles()->profiles();

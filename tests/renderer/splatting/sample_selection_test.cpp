@@ -43,7 +43,7 @@ void addFlux(std::array<double, 3>& sum, const std::vector<float>& fluxes, std::
     }
 }
 
-PaintedView paint(const SplattingSolver& solver) {
+PaintedView paint(const RasterBackend& solver) {
     const gl::Texture& fluxes = solver.irradianceBuffer().fluxes();
     const glm::ivec2 size = fluxes.size2d(0);
     const std::vector<float> leaves = fluxes.readLevel(0);
@@ -109,8 +109,9 @@ protected:
         settings.splatting.alpha = kAlpha;
         settings.splatting.adaptive = adaptive;
         settings.layers = false;
+        settings.splatting.backend = SplatBackendKind::Raster;
         FrameRenderer renderer(context(), world, settings);
-        auto& solver = dynamic_cast<SplattingSolver&>(renderer.solver());
+        RasterBackend& solver = *dynamic_cast<SplattingSolver&>(renderer.solver()).raster();
         std::vector<PaintedView> views;
         solver.observeLightViews([&] { views.push_back(paint(solver)); });
         const RenderedFrame frame =

@@ -1,0 +1,38 @@
+#include "renderer/frame_quality.h"
+
+namespace celadon {
+
+FrameSettings frameSettings(Quality quality) {
+    FrameSettings settings;
+    SplattingSettings& splatting = settings.splatting;
+    splatting.scheme = Scheme::Hierarchical;
+    splatting.energy = 1.0; // far samples are cheap: nothing is cut
+    switch (quality) {
+    case Quality::Sketch:
+        splatting.irradianceSize = 128;
+        splatting.alpha = 8.0;
+        splatting.sampleAngle = 4.0;
+        splatting.pixelAngle = 0.3;
+        splatting.fade = 0.3;
+        settings.coverageSamples = 1;
+        settings.shadowSize = 256;
+        break;
+    case Quality::Draft:
+        splatting.irradianceSize = 256;
+        splatting.alpha = 8.0;
+        splatting.sampleAngle = 3.0;
+        splatting.fade = 0.3;
+        break;
+    case Quality::Default:
+        break;
+    case Quality::Final:
+        splatting.irradianceSize = 1024;
+        splatting.sampleAngle = 1.4;
+        splatting.pixelAngle = 0.16;
+        settings.shadowSize = 2048;
+        break;
+    }
+    return settings;
+}
+
+} // namespace celadon

@@ -1,0 +1,117 @@
+#include "renderer/gather/gather_materials.h"
+
+#include "subedit/fast_exp.h"
+#include "subedit/multiversion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace celadon {
+
+namespace {
+
+constexpr float kLargestCode = 65535.0f;
+constexpr float kRoomAbove = 3.0f; ///< of ln P above the largest: paint stays within the codes
+
+CELADON_MULTIVERSION
+void quantize(const float* logP, std::size_t count, float offset, float perStep,
+              std::uint16_t* codes) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const float code = (logP[i] - offset) * perStep + 0.5f;
+        codes[i] = static_cast<std::uint16_t>(
+            static_cast<int>(code < 0.0f ? 0.0f : (code > kLargestCode ? kLargestCode : code)));
+    }
+}
+
+CELADON_MULTIVERSION
+void rootsOf(const std::uint16_t* codes, std::size_t count, float offset, float step,
+             float* roots) {
+    for (std::size_t i = 0; i < count; ++i) {
+        roots[i] = subedit::fastExp(0.5f * (offset + step * static_cast<float>(codes[i])));
+    }
+}
+
+gather::Knots knotsOf(const subedit::MaterialMap& map) {
+    return {static_cast<float>(map.segments) / map.maxRadiusMm, map.segments, map.maxRadiusMm};
+}
+
+} // namespace
+
+GatherMaterials::GatherMaterials(std::span<const MaterialPointer> materials)
+    : mMaterials(materials.begin(), materials.end()) {
+    update();
+}
+
+void GatherMaterials::update() {
+    mHomogeneous = mMaterials.size() == 1 && mMaterials[0]->isHomogeneous();
+    mCommon = {};
+    mLargestProfile = 0;
+    float largest = subedit::kLogProfileFloor;
+    float finest = 0.0f;
+    for (const MaterialPointer& material : mMaterials) {
+        const gather::Knots own = knotsOf(*material);
+        mCommon.rangeMm = std::max(mCommon.rangeMm, own.rangeMm);
+        finest = std::max(finest, own.perMm);
+        largest = std::max(largest, *std::ranges::max_element(material->logProfile));
+        mLargestProfile =
+            std::max(mLargestProfile, static_cast<std::size_t>(material->knots()) * 3);
+    }
+    mCommon.segments = std::clamp(static_cast<int>(std::lround(mCommon.rangeMm * finest)), 1,
+                                  subedit::kMaxSegments);
+    mCommon.perMm = static_cast<float>(mCommon.segments) / mCommon.rangeMm;
+    mLargestProfile = std::max(mLargestProfile, static_cast<std::size_t>(mCommon.segments + 1) * 3);
+    mScale.offset = subedit::kLogProfileFloor;
+    mScale.step = (largest + kRoomAbove - subedit::kLogProfileFloor) / kLargestCode;
+    const float halfLog2e = 0.5f * std::numbers::log2e_v<float>;
+    mScale.exponentOffset = 2.0f * halfLog2e * mScale.offset;
+    mScale.exponentStep = halfLog2e * mScale.step;
+}
+
+gather::Knots GatherMaterials::knots(int material) const {
+    return knotsOf(map(material));
+}
+
+void GatherMaterials::encodeLogs(const float* logP, std::size_t count, std::uint16_t* codes) const {
+    quantize(logP, count, mScale.offset, 1.0f / mScale.step, codes);
+}
+
+void GatherMaterials::encode(int material, glm::vec2 uv, float* scratch,
+                             std::uint16_t* codes) const {
+    const subedit::MaterialMap& own = map(material);
+    own.sampleLogProfile(uv, scratch);
+    const auto knotCount = static_cast<std::size_t>(own.knots());
+    std::uint16_t interleaved[3 * (subedit::kMaxSegments + 1)];
+    encodeLogs(scratch, 3 * knotCount, interleaved);
+    for (std::size_t k = 0; k < knotCount; ++k) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            codes[c * knotCount + k] = interleaved[3 * k + c];
+        }
+    }
+}
+
+void GatherMaterials::decodeRoots(int material, const std::uint16_t* codes, float* roots) const {
+    const gather::Knots own = knots(material);
+    const auto commonCount = static_cast<std::size_t>(mCommon.segments + 1);
+    const auto ownCount = static_cast<std::size_t>(own.segments + 1);
+    if (own.segments == mCommon.segments && own.rangeMm == mCommon.rangeMm) {
+        rootsOf(codes, 3 * ownCount, mScale.offset, mScale.step, roots);
+        return;
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+        for (std::size_t k = 0; k < commonCount; ++k) {
+            const float r = static_cast<float>(k) / mCommon.perMm;
+            const float position = r * own.perMm;
+            const auto i = static_cast<std::size_t>(std::min(int(position), own.segments - 1));
+            const auto a = static_cast<float>(codes[c * ownCount + i]);
+            const auto b = static_cast<float>(codes[c * ownCount + i + 1]);
+            const float code = a + (b - a) * (position - static_cast<float>(i));
+            roots[c * commonCount + k] =
+                r <= own.rangeMm * 1.0001f
+                    ? subedit::fastExp(0.5f * (mScale.offset + mScale.step * code))
+                    : 0.0f;
+        }
+    }
+}
+
+} // namespace celadon

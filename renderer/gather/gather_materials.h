@@ -1,0 +1,49 @@
+#pragma once
+
+#include "renderer/gather/pair_kernel.h"
+#include "renderer/scene/world.h"
+
+#include <span>
+#include <vector>
+
+/// The scene's SubEdit materials as the CPU backend reads them. No GL here.
+namespace celadon {
+
+class GatherMaterials {
+public:
+    /// Keeps pointers: texels edited in place are seen by the next solve, see update().
+    explicit GatherMaterials(std::span<const MaterialPointer> materials);
+
+    /// After an edit: codes span up to the largest ln P of any map.
+    void update();
+
+    [[nodiscard]] const subedit::MaterialMap& map(int material) const {
+        return *mMaterials[static_cast<std::size_t>(material)];
+    }
+    /// One material of one texel: all profiles are one, at code 0.
+    [[nodiscard]] bool isHomogeneous() const { return mHomogeneous; }
+    /// Knots that nodes above level 0 share: r_s the largest, spacing the finest, at most 256
+    /// segments, as GpuMaterials::nodeSegments.
+    [[nodiscard]] const gather::Knots& commonKnots() const { return mCommon; }
+    [[nodiscard]] gather::Knots knots(int material) const;
+    [[nodiscard]] const gather::CodeScale& scale() const { return mScale; }
+    /// Floats of a scratch array that holds any profile.
+    [[nodiscard]] std::size_t largestProfile() const { return mLargestProfile; }
+
+    /// Codes of the profile at a texture coordinate: [channel][segments + 1].
+    /// @param scratch largestProfile() floats
+    void encode(int material, glm::vec2 uv, float* scratch, std::uint16_t* codes) const;
+    /// sqrt(P) of such a profile on the common knots, zero beyond its own r_s.
+    void decodeRoots(int material, const std::uint16_t* codes, float* roots) const;
+    /// Codes of a profile given as ln P.
+    void encodeLogs(const float* logP, std::size_t count, std::uint16_t* codes) const;
+
+private:
+    std::vector<MaterialPointer> mMaterials;
+    gather::Knots mCommon;
+    gather::CodeScale mScale;
+    std::size_t mLargestProfile = 0;
+    bool mHomogeneous = false;
+};
+
+} // namespace celadon

@@ -1,0 +1,188 @@
+// Profiles of the tree's nodes: of leaves the material's own, above them the flux-weighted mean of
+// sqrt(P) over the footprint, and the radii that follow. Paired with shaders/node_profile.comp and
+// shaders/node_radii.comp.
+#include "renderer/gather/morton.h"
+#include "renderer/gather/sample_tree.h"
+#include "subedit/multiversion.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace celadon {
+
+namespace {
+
+constexpr float kLeastRoot = 1e-7f;
+constexpr int kMostKnots = subedit::kMaxSegments + 1;
+
+/// Natural logarithm, relative error below 1e-6 of 1 + |ln x|; no calls, so that loops become
+/// vectors. x > 0 and normal.
+inline float fastLog(float x) {
+    const auto bits = std::bit_cast<std::uint32_t>(x);
+    // x = 2^e m with m in [sqrt(1/2), sqrt(2)).
+    const std::uint32_t shifted = bits - 0x3f3504f3u;
+    const auto exponent = static_cast<float>(static_cast<std::int32_t>(shifted) >> 23);
+    const float m = std::bit_cast<float>((shifted & 0x007fffffu) + 0x3f3504f3u);
+    const float s = (m - 1.0f) / (m + 1.0f); // ln m = 2 artanh(s), |s| < 0.172
+    const float s2 = s * s;
+    return exponent * 0.69314718f +
+           2.0f * s * (1.0f + s2 * (1.0f / 3 + s2 * (0.2f + s2 * (1.0f / 7))));
+}
+
+CELADON_MULTIVERSION
+void addRoots(const float* roots, float weight, int count, float* sum) {
+    for (int i = 0; i < count; ++i) {
+        sum[i] += weight * roots[i];
+    }
+}
+
+CELADON_MULTIVERSION
+void logsOf(const float* roots, int count, float* logP) {
+    for (int i = 0; i < count; ++i) {
+        const float l = 2.0f * fastLog(roots[i] > kLeastRoot ? roots[i] : kLeastRoot);
+        logP[i] = l > subedit::kLogProfileFloor ? l : subedit::kLogProfileFloor;
+    }
+}
+
+/// Energy of each segment in closed form, see node_radii.comp: P at the knots, ln P for the slope.
+CELADON_MULTIVERSION
+void segmentEnergies(const float* P, const float* logP, int segments, float h, float* energy) {
+    for (int k = 0; k < segments; ++k) {
+        const float s = logP[k + 1] - logP[k];
+        const float e = P[k + 1] / P[k];
+        const bool small = (s < 0.0f ? -s : s) < 0.02f;
+        const float safe = small ? 1.0f : s;
+        const float first = small ? 1.0f + s * (0.5f + s / 6.0f) : (e - 1.0f) / safe;
+        const float second =
+            small ? 0.5f + s * (1.0f / 3.0f + s / 8.0f) : (e * (s - 1.0f) + 1.0f) / (safe * safe);
+        energy[k] = P[k] * h * (static_cast<float>(k) * h * first + h * second);
+    }
+}
+
+struct Radii {
+    float longest = 0.0f, shortest = 1e30f, cut = 0.0f;
+    float kept[3] = {1.0f, 1.0f, 1.0f};
+};
+
+/// R_P (energy 0.95) of the longest and the shortest channel, R_cut, and what it keeps.
+Radii radiiOf(const float* roots, const float* logP, int segments, float h, double cutEnergy) {
+    Radii radii;
+    float energy[3][kMostKnots];
+    float P[kMostKnots];
+    float total[3];
+    const auto crossing = [&](int c, float wanted) {
+        float sum = 0.0f;
+        for (int k = 0; k < segments; ++k) {
+            if (sum + energy[c][k] >= wanted) {
+                return h *
+                       (static_cast<float>(k) + (wanted - sum) / std::max(energy[c][k], 1e-30f));
+            }
+            sum += energy[c][k];
+        }
+        return h * static_cast<float>(segments);
+    };
+    for (int c = 0; c < 3; ++c) {
+        const int first = c * (segments + 1);
+        for (int k = 0; k <= segments; ++k) {
+            const float root = std::max(roots[first + k], 3.059e-7f); // e^-15, the floor
+            P[k] = root * root;
+        }
+        segmentEnergies(P, logP + first, segments, h, energy[c]);
+        total[c] = 0.0f;
+        for (int k = 0; k < segments; ++k) {
+            total[c] += energy[c][k];
+        }
+        const float R_P = crossing(c, 0.95f * total[c]);
+        radii.longest = std::max(radii.longest, R_P);
+        radii.shortest = std::min(radii.shortest, R_P);
+        if (cutEnergy < 1.0) {
+            radii.cut = std::max(radii.cut, crossing(c, static_cast<float>(cutEnergy) * total[c]));
+        }
+    }
+    if (cutEnergy >= 1.0) {
+        radii.cut = h * static_cast<float>(segments);
+        return radii;
+    }
+    for (int c = 0; c < 3; ++c) {
+        const float position = radii.cut / h;
+        const int whole = std::min(static_cast<int>(position), segments - 1);
+        float inside = 0.0f;
+        for (int k = 0; k < whole; ++k) {
+            inside += energy[c][k];
+        }
+        // Of the segment that R_cut ends in, the same closed form over its part.
+        const float t = position - static_cast<float>(whole);
+        const int first = c * (segments + 1) + whole;
+        const float s = (logP[first + 1] - logP[first]) * t;
+        const float e = std::exp(s);
+        const bool small = std::abs(s) < 0.02f;
+        const float m0 = small ? 1.0f + s * (0.5f + s / 6.0f) : (e - 1.0f) / s;
+        const float m1 =
+            small ? 0.5f + s * (1.0f / 3.0f + s / 8.0f) : (e * (s - 1.0f) + 1.0f) / (s * s);
+        inside += std::exp(logP[first]) * t * h * (static_cast<float>(whole) * h * m0 + t * h * m1);
+        radii.kept[c] = std::clamp(inside / std::max(total[c], 1e-30f), 0.5f, 1.0f);
+    }
+    return radii;
+}
+
+} // namespace
+
+void SampleTree::makeProfiles(const LightTexels& texels, std::size_t level) {
+    Level& here = mLevels[level];
+    const std::size_t count = here.nodes.size();
+    const gather::Knots common = mMaterials->commonKnots();
+    const int values = 3 * (common.segments + 1);
+    const bool needsRoots = level + 1 < static_cast<std::size_t>(mSettings.levels);
+
+    // Every profile's place first, then all of them in parallel.
+    std::size_t end = mCodes.empty() ? 0 : mCodes.size() - gather::kCodeTail;
+    for (std::size_t i = 0; i < count; ++i) {
+        here.samples[i].profile = static_cast<std::uint32_t>(end);
+        end += static_cast<std::size_t>(
+            level == 0 ? 3 * mMaterials->map(mMeans[0][i].material).knots() : values);
+    }
+    mCodes.resize(end + gather::kCodeTail);
+    mRoots[level].resize(needsRoots || level > 0 ? count * static_cast<std::size_t>(values) : 0);
+
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 128), [&](const auto& range) {
+        std::vector<float> scratch(mMaterials->largestProfile());
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            std::uint16_t* out = mCodes.data() + here.samples[i].profile;
+            float* roots = mRoots[level].empty()
+                               ? nullptr
+                               : mRoots[level].data() + i * static_cast<std::size_t>(values);
+            Mean& mean = mMeans[level][i];
+            if (level == 0) {
+                const std::uint32_t code = mMorton[0][i];
+                const std::size_t texel =
+                    std::size_t{compactBits(code >> 1)} * static_cast<std::size_t>(texels.stride) +
+                    compactBits(code);
+                const glm::vec2 uv(texels.surfaces[4 * texel], texels.surfaces[4 * texel + 1]);
+                mMaterials->encode(mean.material, uv, scratch.data(), out);
+                if (roots != nullptr) {
+                    mMaterials->decodeRoots(mean.material, out, roots);
+                }
+                continue;
+            }
+            std::fill_n(roots, values, 0.0f);
+            const TreeNode& node = here.nodes[i];
+            for (std::size_t j = node.first; j < node.first + std::size_t{node.children}; ++j) {
+                addRoots(mRoots[level - 1].data() + j * static_cast<std::size_t>(values),
+                         mMeans[level - 1][j].weight / mean.weight, values, roots);
+            }
+            logsOf(roots, values, scratch.data());
+            mMaterials->encodeLogs(scratch.data(), static_cast<std::size_t>(values), out);
+            const Radii radii = radiiOf(roots, scratch.data(), common.segments, 1.0f / common.perMm,
+                                        mSettings.cutEnergy);
+            mean.R_P = radii.longest;
+            mean.R_Pmin = radii.shortest;
+            mean.R_cut = radii.cut;
+            std::copy_n(radii.kept, 3, mean.kept);
+        }
+    });
+}
+
+} // namespace celadon

@@ -1,0 +1,116 @@
+#pragma once
+
+#include "renderer/gather/gather_materials.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+/// The samples of one light view as a quadtree on the CPU: what irradiance_mip.comp,
+/// node_profile.comp, node_radii.comp, node_ball.comp and sample_selection.vert make on a GPU
+/// (DESIGN 3.1, 3.2), with the same meaning. No GL here.
+namespace celadon {
+
+/// Level 0 of the irradiance buffer: RGBA, `size` rows of `stride` texels, as
+/// irradiance_buffer.frag writes them.
+struct LightTexels {
+    int size = 0;
+    int stride = 0;
+    const float* positions = nullptr;
+    const float* normals = nullptr;
+    const float* fluxes = nullptr;
+    const float* surfaces = nullptr;
+    const float* covariances = nullptr;
+    const float* extents = nullptr;
+    const float* kepts = nullptr;
+};
+
+struct TreeSettings {
+    bool hierarchical = true;
+    int levels = 6;               ///< of the irradiance buffer; 1: level 0 only
+    bool adaptive = true;         ///< paper: off selects level 0
+    double cutEnergy = 1.0;       ///< that R_cut holds; 1: R_cut = r_s
+    float alpha = 15.0f;          ///< eq. 11
+    float discontinuityMm = 0.0f; ///< z_0, eq. 10
+    float texelScale = 0.0f;      ///< width of a texel at depth z of the light's view:
+    float texelOffset = 0.0f;     ///<   z * texelScale + texelOffset, mm
+    float sampleAngle = 1.8f;     ///< theta_s
+    float fade = 0.6f;            ///< b
+    float fineSpread = 0.06f;     ///< beta
+};
+
+/// A node's place in the tree and what a traversal asks first.
+struct TreeNode {
+    float position[3];
+    float ball;          ///< mm; 0: stands for all below it; at least kNeverUsed: for none of it
+    float extent;        ///< every leaf below lies within this of the position, mm
+    float reach;         ///< no sample of this subtree counts beyond, mm from the sample
+    std::uint32_t first; ///< child on the level below
+    std::uint8_t children;
+    bool selected; ///< paper: a sample; hierarchical: counts at some distance
+    std::int16_t material;
+    float R_P;
+};
+
+class SampleTree {
+public:
+    static constexpr float kNeverUsed = 1e30f;
+
+    struct Level {
+        std::vector<TreeNode> nodes; ///< in the order of their Morton codes
+        std::vector<gather::Sample> samples;
+    };
+
+    /// Replaces what was there; memory is reused.
+    void build(const LightTexels& texels, const GatherMaterials& materials,
+               const TreeSettings& settings);
+
+    /// From the leaves to one root; levels beyond settings.levels only bound their subtrees. Empty
+    /// where nothing is lit.
+    [[nodiscard]] const std::vector<Level>& levels() const { return mLevels; }
+    [[nodiscard]] const std::vector<std::uint16_t>& codes() const { return mCodes; }
+
+    struct Counts {
+        std::uint64_t candidates = 0;         ///< lit nodes of all levels
+        std::vector<std::uint64_t> selected;  ///< per level
+        std::array<double, 3> litFlux{};      ///< 1e-6 W
+        std::array<double, 3> selectedFlux{}; ///< hierarchical: of nodes without a ball
+    };
+    [[nodiscard]] Counts count() const;
+
+private:
+    /// Means over a node's footprint, weighted by flux.
+    struct Mean {
+        float flux[3];
+        float weight; ///< sum of flux
+        float position[3];
+        float depth;
+        float normal[3];
+        float cosine;
+        float covariance[6]; ///< xx, xy, xz, yy, yz, zz
+        float R_P, R_cut, R_Pmin;
+        float kept[3];
+        std::int32_t material;
+    };
+
+    void makeLeaves(const LightTexels& texels);
+    void makeParents(std::size_t level);
+    void makeProfiles(const LightTexels& texels, std::size_t level);
+    void measureDepths(const LightTexels& texels);
+    void select(std::size_t level);
+    void growBalls(std::size_t level);
+    void dropReplaced(std::size_t level);
+    void bound(std::size_t level);
+    void finishSample(std::size_t level, std::size_t i);
+
+    const GatherMaterials* mMaterials = nullptr;
+    TreeSettings mSettings;
+    std::vector<Level> mLevels;
+    std::vector<std::vector<Mean>> mMeans;
+    std::vector<std::vector<std::uint32_t>> mMorton;
+    std::vector<std::vector<float>> mRoots; ///< sqrt(P) of a level's nodes on the common knots
+    std::vector<std::vector<std::array<float, 2>>> mDepths; ///< dense: least and greatest, 2^k
+    std::vector<std::uint16_t> mCodes;
+};
+
+} // namespace celadon

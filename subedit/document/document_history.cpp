@@ -1,0 +1,310 @@
+#include "subedit/assert.h"
+#include "subedit/document/history_entry.h"
+#include "subedit/document/open_stroke.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <utility>
+
+// Undo. A command keeps the profiles that it changed, until all of them together are too many. Then
+// the oldest commands keep only what nothing else can give back: a texel's profile before the first
+// command that changed it, or before one that follows an operator which looked at other texels. The
+// rest is computed again when it is needed, by the same steps with the same bits.
+namespace celadon::subedit {
+
+Document::~Document() = default;
+
+TileBefore* Document::Entry::find(int tile) {
+    const auto found = std::lower_bound(before.begin(), before.end(), tile,
+                                        [](const TileBefore& b, int t) { return b.tile < t; });
+    return found != before.end() && found->tile == tile ? &*found : nullptr;
+}
+
+TileBits Document::Entry::weighted(int tile) const {
+    TileBits bits;
+    if (const WeightMask::Tile* weights = mask.tile(tile)) {
+        const TexelRect rect = mask.tileRect(tile);
+        for (int y = rect.y; y < rect.bottom(); ++y) {
+            for (int x = rect.x; x < rect.right(); ++x) {
+                const std::size_t cell = WeightMask::cell(x, y);
+                bits[cell] = (*weights)[cell] != 0;
+            }
+        }
+    }
+    return bits;
+}
+
+std::size_t Document::Entry::beforeBytes() const {
+    std::size_t bytes = 0;
+    for (const TileBefore& tile : before) {
+        bytes += sizeof(tile) + tile.values.capacity() * sizeof(float);
+    }
+    return bytes;
+}
+
+std::size_t Document::Entry::bytes() const {
+    std::size_t bytes = sizeof(*this) + mask.ownBytes() + beforeBytes();
+    for (const Growth& g : growth) {
+        bytes += g.before.capacity() * sizeof(float) + g.changedTexels.capacity() * 4;
+    }
+    if (const auto* stroke = std::get_if<StrokeCommand>(&command)) {
+        bytes += stroke->path.capacity() * sizeof(StrokePoint);
+    }
+    return bytes;
+}
+
+std::size_t Document::historyBytes() const {
+    std::size_t bytes = 0;
+    for (const auto& entry : mHistory) {
+        bytes += entry->bytes();
+    }
+    return bytes;
+}
+
+void Document::commit(std::unique_ptr<Entry> entry) {
+    for (std::size_t e = mDone; e < mHistory.size(); ++e) {
+        mBeforeBytes -= mHistory[e]->beforeBytes();
+    }
+    mHistory.resize(mDone);
+    mBeforeBytes += entry->beforeBytes();
+    mHistory.push_back(std::move(entry));
+    ++mDone;
+    trim();
+}
+
+void Document::trim() {
+    mTrimmed = std::min(mTrimmed, mDone);
+    for (; mTrimmed < mDone && mBeforeBytes > mSettings.historyBytes; ++mTrimmed) {
+        Entry& entry = *mHistory[mTrimmed];
+        mBeforeBytes -= entry.beforeBytes();
+        tbb::parallel_for(std::size_t{0}, entry.before.size(), [&](std::size_t i) {
+            keepOnly(entry.before[i], irreplaceable(mTrimmed, entry.before[i].tile));
+        });
+        mBeforeBytes += entry.beforeBytes();
+    }
+}
+
+/// Texels of a tile whose profile before an entry cannot be computed from earlier ones.
+TileBits Document::irreplaceable(std::size_t index, int tile) const {
+    TileBits open = mHistory[index]->weighted(tile);
+    TileBits kept;
+    for (std::size_t e = index; e-- > 0 && open.any();) {
+        const Entry& earlier = *mHistory[e];
+        if (earlier.isSelection()) {
+            continue;
+        }
+        const TileBits touched = open & earlier.weighted(tile);
+        if (!isLocal(*operatorOf(earlier.command))) {
+            kept |= touched;
+        }
+        open &= ~touched;
+    }
+    return kept | open;
+}
+
+void Document::keepOnly(TileBefore& before, const TileBits& wanted) {
+    if ((before.kept & ~wanted).none()) {
+        return;
+    }
+    const std::size_t count = before.kept.count();
+    const std::size_t values = before.values.size() / count;
+    std::vector<float> fewer;
+    fewer.reserve((before.kept & wanted).count() * values);
+    const float* in = before.values.data();
+    for (std::size_t cell = 0; cell < before.kept.size(); ++cell) {
+        if (before.kept[cell]) {
+            if (wanted[cell]) {
+                fewer.insert(fewer.end(), in, in + values);
+            }
+            in += values;
+        }
+    }
+    before.kept &= wanted;
+    before.values = std::move(fewer);
+}
+
+/// Computes again what trim() has left out of a tile of an entry in effect.
+void Document::complete(std::size_t index, TileBefore& wanted) const {
+    const int tile = wanted.tile;
+    const TileBits needed = mHistory[index]->weighted(tile);
+    // Back to the latest profile that is kept of each texel.
+    struct Start {
+        std::size_t entry = 0;
+        const float* values = nullptr;
+    };
+    std::vector<Start> starts(needed.size());
+    TileBits open = needed;
+    std::size_t first = index;
+    for (std::size_t e = index;; --e) {
+        Entry& entry = *mHistory[e];
+        if (const TileBefore* before = entry.find(tile)) {
+            const std::size_t values =
+                before->kept.any() ? before->values.size() / before->kept.count() : 0;
+            const float* in = before->values.data();
+            for (std::size_t cell = 0; cell < open.size(); ++cell) {
+                if (before->kept[cell]) {
+                    if (open[cell]) {
+                        starts[cell] = {e, in};
+                        open[cell] = false;
+                        first = e;
+                    }
+                    in += values;
+                }
+            }
+        }
+        if (open.none() || e == 0) {
+            break;
+        }
+    }
+    CELADON_ASSERT(open.none());
+
+    // And forward again, through every command that changed them.
+    ProfileLayout layout = layoutBefore(first);
+    std::vector<std::vector<float>> state(needed.size());
+    const TexelRect rect = mSelection.tileRect(tile);
+    const MapSource nothing(*mMaterial); // local operators read no other texel
+    for (std::size_t e = first; e <= index; ++e) {
+        const Entry& entry = *mHistory[e];
+        for (const Growth& growth : entry.growth) {
+            ProfileEditor editor(growth.to);
+            for (std::vector<float>& values : state) {
+                if (!values.empty()) {
+                    std::vector<float> grown(growth.to.values());
+                    growProfile(values.data(), growth.from, editor, growth.to, grown.data());
+                    values = std::move(grown);
+                }
+            }
+            layout = growth.to;
+        }
+        for (std::size_t cell = 0; cell < state.size(); ++cell) {
+            if (starts[cell].entry == e && starts[cell].values != nullptr) {
+                state[cell].assign(starts[cell].values, starts[cell].values + layout.values());
+            }
+        }
+        if (e == index || entry.isSelection() || entry.mask.tile(tile) == nullptr) {
+            continue;
+        }
+        const PreparedOperator prepared(*operatorOf(entry.command), layout, mLargestRadiusMm,
+                                        *mSurface, nothing);
+        PreparedOperator::Worker worker(prepared);
+        entry.mask.forEachNonZeroOfTile(tile, [&](std::size_t texel, WeightMask::Weight weight) {
+            const auto width = static_cast<std::size_t>(mMaterial->width);
+            std::vector<float>& values = state[WeightMask::cell(static_cast<int>(texel % width),
+                                                                static_cast<int>(texel / width))];
+            if (!values.empty()) {
+                worker.evaluate(static_cast<Surface::Texel>(texel), values.data(),
+                                weightToFloat(weight), values.data());
+            }
+        });
+    }
+    wanted.kept = needed;
+    wanted.values.clear();
+    wanted.values.reserve(needed.count() * layout.values());
+    for (int y = rect.y; y < rect.bottom(); ++y) {
+        for (int x = rect.x; x < rect.right(); ++x) {
+            const std::size_t cell = WeightMask::cell(x, y);
+            if (needed[cell]) {
+                wanted.values.insert(wanted.values.end(), state[cell].begin(), state[cell].end());
+            }
+        }
+    }
+}
+
+/// Of the map before an entry, and so before its growth.
+ProfileLayout Document::layoutBefore(std::size_t index) const {
+    for (std::size_t e = index; e < mHistory.size(); ++e) {
+        if (!mHistory[e]->growth.empty()) {
+            return mHistory[e]->growth.front().from;
+        }
+    }
+    return layoutOf(*mMaterial);
+}
+
+void Document::restoreTiles(const Entry& entry) {
+    const std::size_t values = layoutOf(*mMaterial).values();
+    tbb::parallel_for(std::size_t{0}, entry.before.size(), [&](std::size_t i) {
+        const float* in = entry.before[i].values.data();
+        entry.mask.forEachNonZeroOfTile(entry.before[i].tile, [&](std::size_t texel, auto) {
+            std::copy_n(in, values, texelData(texel));
+            in += values;
+        });
+    });
+    for (const TileBefore& tile : entry.before) {
+        markTile(tile.tile);
+    }
+}
+
+void Document::undoGrowths(const Entry& entry) {
+    for (auto growth = entry.growth.rbegin(); growth != entry.growth.rend(); ++growth) {
+        undoGrowth(*mMaterial, *growth);
+        mLayoutChanged = true;
+        markAll();
+    }
+}
+
+bool Document::undo() {
+    CELADON_ASSERT(!isStrokeOpen());
+    if (!canUndo()) {
+        return false;
+    }
+    Entry& entry = *mHistory[mDone - 1];
+    if (entry.isSelection()) {
+        setSelection(entry.selectionBefore);
+        --mDone;
+        return true;
+    }
+    mBeforeBytes -= entry.beforeBytes();
+    // Tiles are read by their neighbors in time only, not in space: one at a time each.
+    std::vector<TileBefore> before(entry.before.size());
+    tbb::parallel_for(std::size_t{0}, before.size(), [&](std::size_t i) {
+        before[i].tile = entry.before[i].tile;
+        if (entry.before[i].kept != entry.weighted(before[i].tile)) {
+            complete(mDone - 1, before[i]);
+        } else {
+            before[i] = std::move(entry.before[i]);
+        }
+    });
+    entry.before = std::move(before);
+    restoreTiles(entry);
+    undoGrowths(entry);
+    entry.before.clear(); // doing it again saves them again
+    entry.growth.clear();
+    --mDone;
+    return true;
+}
+
+bool Document::redo() {
+    CELADON_ASSERT(!isStrokeOpen());
+    if (!canRedo()) {
+        return false;
+    }
+    Entry& entry = *mHistory[mDone];
+    if (entry.isSelection()) {
+        setSelection(entry.mask);
+    } else {
+        applyMasked(entry);
+        mBeforeBytes += entry.beforeBytes();
+    }
+    ++mDone;
+    trim();
+    return true;
+}
+
+std::string Document::undoTitle() const {
+    return canUndo() ? commandTitle(mHistory[mDone - 1]->command) : std::string();
+}
+
+std::string Document::redoTitle() const {
+    return canRedo() ? commandTitle(mHistory[mDone]->command) : std::string();
+}
+
+std::vector<EditCommand> Document::commands() const {
+    std::vector<EditCommand> commands;
+    for (std::size_t i = 0; i < mDone; ++i) {
+        commands.push_back(mHistory[i]->command);
+    }
+    return commands;
+}
+
+} // namespace celadon::subedit

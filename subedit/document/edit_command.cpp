@@ -1,0 +1,28 @@
+#include "subedit/document/edit_command.h"
+
+namespace celadon::subedit {
+
+const EditOperator* operatorOf(const EditCommand& command) {
+    return std::visit(
+        [](const auto& c) -> const EditOperator* {
+            if constexpr (requires { c.op; }) {
+                return &c.op;
+            } else {
+                return nullptr;
+            }
+        },
+        command);
+}
+
+std::string commandTitle(const EditCommand& command) {
+    if (const auto* selection = std::get_if<SelectCommand>(&command)) {
+        return "select " + std::string(selectionStepName(selection->step));
+    }
+    const std::string name(operatorName(*operatorOf(command)));
+    if (std::holds_alternative<StrokeCommand>(command)) {
+        return name + " stroke";
+    }
+    return std::holds_alternative<PropagateCommand>(command) ? "propagate " + name : name;
+}
+
+} // namespace celadon::subedit

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "subedit/edit/edit_operator.h"
+#include "subedit/map/material_map.h"
+#include "subedit/texel_energy.h"
+
+#include <array>
+#include <vector>
+
+/// One texel's profile taken apart and changed: albedo, range, shape. The steps that operators are
+/// made of, in single precision and in a fixed order: the same input gives the same bits.
+namespace celadon::subedit {
+
+/// How the profiles of a map are stored.
+struct ProfileLayout {
+    int segments = 0;
+    float maxRadiusMm = 0.0f; ///< r_s
+    [[nodiscard]] int knots() const { return segments + 1; }
+    [[nodiscard]] std::size_t values() const { return static_cast<std::size_t>(knots()) * 3; }
+    [[nodiscard]] float spacingMm() const { return maxRadiusMm / static_cast<float>(segments); }
+    bool operator==(const ProfileLayout&) const = default;
+};
+
+[[nodiscard]] inline ProfileLayout layoutOf(const MaterialMap& map) {
+    return {map.segments, map.maxRadiusMm};
+}
+
+/// Edited profiles keep at most this much energy: 1, less what rounding of ln P may add.
+inline constexpr float kLargestAlbedo = 1.0f - 4e-6f;
+/// A profile fits within r_s if this part of its energy does; the rest, as everywhere in the
+/// program (BakeSettings::heldEnergy), is given back to what is stored.
+inline constexpr float kHeldEnergy = 0.999f;
+
+/// ln P of one channel at knots that lie `outSpacing` apart, of a profile scaled in range by s:
+/// P(r / s) / s^2, linear in ln P between the knots given and on beyond the last of them.
+/// @param in, out one channel of knots: every third value
+void resampleChannel(const float* in, int inSegments, float inSpacingMm, float scale, float* out,
+                     int outSegments, float outSpacingMm);
+
+/// The profile at the layout's knots; each channel keeps its albedo. The same layout: a copy.
+[[nodiscard]] std::vector<float> resampleProfile(const StoredProfile& profile,
+                                                 const ProfileLayout& layout);
+
+/// Radius that holds kHeldEnergy of the profile's longest channel, mm.
+[[nodiscard]] float heldRadiusMm(const StoredProfile& profile);
+
+class ProfileEditor {
+public:
+    explicit ProfileEditor(const ProfileLayout& layout);
+
+    /// Starts on a texel. @param logProfile knots x 3; copied
+    void load(const float* logProfile);
+    [[nodiscard]] const float* result() const { return mValues.data(); }
+    [[nodiscard]] float* values() { return mValues.data(); }
+
+    /// Of the profile as load() found it, or as the last step left it.
+    [[nodiscard]] const glm::vec3& albedo() const { return mAlbedo; }
+    [[nodiscard]] bool isBlack(int channel) const { return mAlbedo[channel] < kBlackAlbedo; }
+    /// Radius that holds this part of a channel's energy, mm; 0 if it is black.
+    [[nodiscard]] float radiusMm(int channel, float fraction) const;
+
+    /// Scales P so that a channel has this albedo. A black channel first takes its shape from the
+    /// brightest other one, or an exponential if there is none.
+    void setAlbedo(int channel, float albedo);
+    /// P(r / s) / s^2, at the same albedo. Without effect on a black channel.
+    void scaleRange(int channel, float scale);
+    /// `values()` were written to: measures anew.
+    void measure();
+
+private:
+    ProfileLayout mLayout;
+    TexelEnergy mEnergy;
+    glm::vec3 mAlbedo{0.0f};
+    std::vector<float> mValues;
+    std::vector<float> mOther;
+    bool mIsMeasured = false;
+};
+
+} // namespace celadon::subedit

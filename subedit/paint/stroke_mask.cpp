@@ -1,0 +1,198 @@
+#include "subedit/paint/stroke_mask.h"
+
+#include "subedit/assert.h"
+#include "subedit/errors.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace celadon::subedit {
+
+namespace {
+
+constexpr float kMostDabsBetweenPoints = 1e5f; ///< no hand does; a file might
+
+/// Weight of a texel whose normal makes this cosine with the dab's: paint ends where the surface
+/// turns by 90 degrees from the brush, without an edge.
+float facingWeight(float cosine) {
+    const float t = std::clamp(cosine / 0.3f, 0.0f, 1.0f);
+    return t * t * (3.0f - 2.0f * t);
+}
+
+/// Falloff at a distance in radii: full within `hardness`, then smooth to 0 at 1.
+float falloff(float distance, float hardness) {
+    if (distance >= 1.0f) {
+        return 0.0f;
+    }
+    if (distance <= hardness) {
+        return 1.0f;
+    }
+    const float t = (1.0f - distance) / (1.0f - hardness);
+    return t * t * (3.0f - 2.0f * t);
+}
+
+glm::vec3 normalizedOr(const glm::vec3& v, const glm::vec3& fallback) {
+    const float length = glm::length(v);
+    return length > 1e-12f ? v / length : fallback;
+}
+
+} // namespace
+
+StrokeMask::StrokeMask(const Surface& surface, const Brush& brush, const Mirror& mirror)
+    : mSurface(surface),
+      mBrush(brush),
+      mMirror(mirror),
+      mWeights((surface.texelCount() + kTileTexels - 1) / kTileTexels),
+      mChangeStamp(surface.texelCount(), 0),
+      mVisitStamp(surface.texelCount(), 0) {
+    CELADON_ASSERT(brush.radiusMm > 0.0f && brush.spacing > 0.0f);
+}
+
+float StrokeMask::weight(Texel texel) const {
+    const Texel source = mSurface.sourceOf(texel);
+    if (source == Surface::kNone) {
+        return 0.0f;
+    }
+    const Tile* tile = mWeights[source / kTileTexels].get();
+    return tile == nullptr ? 0.0f : (*tile)[source % kTileTexels];
+}
+
+std::vector<StrokeMask::Texel> StrokeMask::takeChanged() {
+    ++mChangeRound;
+    return std::exchange(mChanged, {});
+}
+
+std::optional<StrokePoint> StrokeMask::resolve(const Surface& surface, const StrokePoint& point,
+                                               float withinMm) {
+    StrokePoint resolved = point;
+    if (point.uv) {
+        const auto at = [](float u, int size) {
+            return std::clamp(static_cast<int>(std::floor(u * static_cast<float>(size))), 0,
+                              size - 1);
+        };
+        const auto texel = static_cast<Texel>(at(point.uv->y, surface.height()) * surface.width() +
+                                              at(point.uv->x, surface.width()));
+        const Texel source = surface.sourceOf(texel);
+        if (source == Surface::kNone) {
+            return std::nullopt;
+        }
+        resolved.positionMm = surface.positionMm(source);
+        resolved.normal = surface.normal(source);
+    } else if (glm::dot(point.normal, point.normal) <= 0.0f) {
+        const auto texel = surface.nearest(point.positionMm, glm::vec3(0.0f), withinMm);
+        if (!texel) {
+            return std::nullopt;
+        }
+        resolved.normal = surface.normal(*texel);
+    }
+    return resolved;
+}
+
+void StrokeMask::add(const StrokePoint& given) {
+    const auto resolved = resolve(mSurface, given, mBrush.radiusMm);
+    if (!resolved) {
+        mLast.reset(); // off the surface: the path goes on where it comes back
+        mUntilNextMm = 0.0f;
+        return;
+    }
+    const StrokePoint& point = *resolved;
+    if (!mLast) {
+        addMirrored({point.positionMm, point.normal, mBrush.flow * point.pressure});
+        mUntilNextMm = mBrush.spacing * mBrush.radiusMm;
+        mLast = point;
+        return;
+    }
+    const StrokePoint last = *mLast;
+    const float length = glm::distance(last.positionMm, point.positionMm);
+    const float stepMm = mBrush.spacing * mBrush.radiusMm;
+    if (length / stepMm > kMostDabsBetweenPoints) {
+        throw InputError("a stroke",
+                         fmt::format("needs {:.0f} dabs between two points {:g} mm apart",
+                                     length / stepMm, length),
+                         "take a larger brush or spacing");
+    }
+    float along = mUntilNextMm;
+    for (; along <= length; along += stepMm) {
+        const float t = along / length;
+        const glm::vec3 normal = normalizedOr(glm::mix(last.normal, point.normal, t), point.normal);
+        glm::vec3 center = glm::mix(last.positionMm, point.positionMm, t);
+        // The chord between two points leaves a curved surface: back onto the nearest texel's
+        // plane.
+        if (const auto texel = mSurface.nearest(center, normal, mBrush.radiusMm)) {
+            const glm::vec3& n = mSurface.normal(*texel);
+            center -= n * glm::dot(n, center - mSurface.positionMm(*texel));
+        }
+        addMirrored({center, normal, mBrush.flow * glm::mix(last.pressure, point.pressure, t)});
+    }
+    mUntilNextMm = along - length;
+    mLast = point;
+}
+
+void StrokeMask::addMirrored(const Dab& dab) {
+    for (unsigned sides = 0; sides < 8; ++sides) {
+        Dab mirrored = dab;
+        bool isWanted = true;
+        for (int axis = 0; axis < 3; ++axis) {
+            if ((sides >> axis & 1u) == 0) {
+                continue;
+            }
+            isWanted = isWanted && mMirror.axes[static_cast<std::size_t>(axis)];
+            mirrored.centerMm[axis] = 2.0f * mMirror.centerMm[axis] - mirrored.centerMm[axis];
+            mirrored.normal[axis] = -mirrored.normal[axis];
+        }
+        if (isWanted) {
+            addDab(mirrored);
+        }
+    }
+}
+
+void StrokeMask::addDab(const Dab& dab) {
+    const float radius = mBrush.radiusMm;
+    const auto seed = mSurface.nearest(dab.centerMm, dab.normal, radius);
+    if (!seed || !(dab.flow > 0.0f)) {
+        return;
+    }
+    // The flood may step one texel out of the ball, so that a ball of few texels stays connected.
+    const float reach = radius + mSurface.texelSizeMm();
+    ++mVisitRound;
+    mFront.assign(1, *seed);
+    mVisitStamp[*seed] = mVisitRound;
+    for (std::size_t i = 0; i < mFront.size(); ++i) {
+        const Texel texel = mFront[i];
+        const float distance = glm::distance(mSurface.positionMm(texel), dab.centerMm);
+        const float cosine = glm::dot(mSurface.normal(texel), dab.normal);
+        const float amount =
+            dab.flow * falloff(distance / radius, mBrush.hardness) * facingWeight(cosine);
+        if (amount > 0.0f) {
+            auto& tile = mWeights[texel / kTileTexels];
+            if (tile == nullptr) {
+                tile = std::make_unique<Tile>();
+                tile->fill(0.0f);
+            }
+            float& weight = (*tile)[texel % kTileTexels];
+            if (weight < mBrush.opacity) {
+                weight = std::min(weight + amount * (mBrush.opacity - weight), mBrush.opacity);
+                if (mChangeStamp[texel] != mChangeRound) {
+                    mChangeStamp[texel] = mChangeRound;
+                    mChanged.push_back(texel);
+                }
+            }
+        }
+        mSurface.forEachNeighbor(texel, [&](Texel neighbor) {
+            if (mVisitStamp[neighbor] == mVisitRound ||
+                glm::dot(mSurface.normal(neighbor), dab.normal) <= 0.0f ||
+                glm::distance(mSurface.positionMm(neighbor), dab.centerMm) > reach) {
+                return;
+            }
+            mVisitStamp[neighbor] = mVisitRound;
+            mFront.push_back(neighbor);
+        });
+    }
+}
+
+} // namespace celadon::subedit

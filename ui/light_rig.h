@@ -1,0 +1,63 @@
+#pragma once
+
+#include "renderer/scene/camera.h"
+#include "renderer/scene/environment.h"
+#include "renderer/scene/scene.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// The lights of the scene as a user handles them. No GL.
+namespace celadon::ui {
+
+struct RigLight {
+    std::string name;
+    bool isOn = true;
+    Light light; ///< position in mm; color includes the strength
+};
+
+/// An environment map, kept as it was read, and how much of it is used.
+struct RigEnvironment {
+    std::filesystem::path file;
+    std::shared_ptr<const EnvironmentMap> map;
+    double strength = 1.0;
+    double turnDegrees = 0.0; ///< about +y
+    int lights = 24;          ///< directional lights that stand for it
+};
+
+struct LightRig {
+    std::vector<RigLight> lights;
+    std::optional<RigEnvironment> environment;
+
+    /// Those that are on, and the environment's, as solvers take them.
+    [[nodiscard]] std::vector<Light> resolved() const;
+};
+
+[[nodiscard]] std::vector<std::string> lightPresetNames();
+
+/// Lights arranged about an object as seen by a camera.
+/// @param name back, rim, studio, front @throws UsageError for another
+[[nodiscard]] std::vector<RigLight> lightPreset(std::string_view name, const Camera& camera,
+                                                const BoundingSphere& object);
+
+/// A light of a kind that shows something at once: near the object, above and to the right.
+[[nodiscard]] RigLight newLight(Light::Kind kind, const Camera& camera,
+                                const BoundingSphere& object);
+
+[[nodiscard]] const char* lightKindName(Light::Kind kind);
+/// @throws UsageError
+[[nodiscard]] Light::Kind parseLightKind(std::string_view name);
+
+/// Where a light is drawn in the viewport: its position, or for a directional one a point on its
+/// way to the object.
+[[nodiscard]] glm::dvec3 gizmoPosition(const Light& light, const BoundingSphere& object);
+/// The light after its gizmo was dragged to `position`: directional and spot lights aim at the
+/// object's center.
+[[nodiscard]] Light movedTo(const Light& light, const glm::dvec3& position,
+                            const BoundingSphere& object);
+
+} // namespace celadon::ui

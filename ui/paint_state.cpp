@@ -1,0 +1,99 @@
+#include "ui/paint_state.h"
+
+#include "subedit/errors.h"
+#include "subedit/map/material_bake.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace celadon::ui {
+
+namespace {
+
+constexpr std::array<PaintOperatorName, 7> kOperators{{
+    {PaintOperator::Profile, "profile", "Profile",
+     "Mixes in the primary profile; with Ctrl the secondary one"},
+    {PaintOperator::ScaleAlbedo, "scale-albedo", "Lighten",
+     "Multiplies the diffuse albedo; range and shape stay. With Ctrl: divides, so it darkens"},
+    {PaintOperator::SetAlbedo, "set-albedo", "Albedo",
+     "Gives the diffuse albedo of the color below"},
+    {PaintOperator::Tint, "tint", "Tint", "Pulls the color of the albedo, its luminance stays"},
+    {PaintOperator::ScaleRange, "scale-range", "Soften",
+     "Multiplies the effective scattering radius; the albedo stays. With Ctrl: divides, harder"},
+    {PaintOperator::SetRange, "set-range", "Range",
+     "Gives the effective scattering radius (R_P, mm) set below"},
+    {PaintOperator::Shape, "shape", "Shape",
+     "Gives the shape of the primary profile; albedo and range stay"},
+}};
+
+} // namespace
+
+std::span<const PaintOperatorName> paintOperators() {
+    return kOperators;
+}
+
+PaintOperator parsePaintOperator(std::string_view word) {
+    for (const PaintOperatorName& name : kOperators) {
+        if (name.word == word) {
+            return name.op;
+        }
+    }
+    throw UsageError(fmt::format("operator '{}'", word), "there is no such operator");
+}
+
+subedit::EditOperator makeOperator(const PaintState& state, bool inverted) {
+    const auto factor = [&](float value) { return glm::vec3(inverted ? 1.0f / value : value); };
+    const subedit::StoredProfile& profile =
+        inverted ? state.secondary.profile : state.primary.profile;
+    switch (state.op) {
+    case PaintOperator::Profile:
+        return subedit::Mix{profile, state.amount};
+    case PaintOperator::ScaleAlbedo:
+        return subedit::ScaleAlbedo{factor(state.albedoFactor)};
+    case PaintOperator::SetAlbedo:
+        return subedit::SetAlbedo{state.color};
+    case PaintOperator::Tint:
+        return subedit::Tint{state.color, state.amount};
+    case PaintOperator::ScaleRange:
+        return subedit::ScaleRange{factor(state.rangeFactor)};
+    case PaintOperator::SetRange:
+        return subedit::SetRange{state.rangeMm};
+    case PaintOperator::Shape:
+        return subedit::SetShape{profile};
+    }
+    return subedit::Mix{profile, state.amount};
+}
+
+subedit::StoredProfile storedProfile(const subedit::MaterialMap& map, int x, int y) {
+    const float* const first = map.logProfile.data() + map.index(x, y, 0);
+    return {map.segments, map.maxRadiusMm, std::vector<float>(first, first + map.knots() * 3)};
+}
+
+subedit::StoredProfile storedProfileAt(const subedit::MaterialMap& map, glm::vec2 uv) {
+    subedit::StoredProfile profile{map.segments, map.maxRadiusMm, {}};
+    profile.logProfile.resize(static_cast<std::size_t>(map.knots()) * 3);
+    map.sampleLogProfile(uv, profile.logProfile.data());
+    return profile;
+}
+
+subedit::StoredProfile diffusionProfile(const glm::vec3& albedo, const glm::vec3& radiusMm) {
+    subedit::AppearanceMap appearance;
+    appearance.width = appearance.height = 1;
+    appearance.albedo = {albedo};
+    appearance.effectiveRadius = {radiusMm};
+    return storedProfile(subedit::bakeAppearance(appearance), 0, 0);
+}
+
+subedit::MaterialMap homogeneousMaterial(const NamedProfile& profile, float eta) {
+    subedit::MaterialMap map;
+    map.name = profile.name;
+    map.width = map.height = 1;
+    map.segments = profile.profile.segments;
+    map.maxRadiusMm = profile.profile.maxRadiusMm;
+    map.eta = eta;
+    map.logProfile = profile.profile.logProfile;
+    return map;
+}
+
+} // namespace celadon::ui

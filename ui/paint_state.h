@@ -1,0 +1,75 @@
+#pragma once
+
+#include "subedit/edit/edit_operator.h"
+#include "subedit/map/material_map.h"
+#include "subedit/paint/brush.h"
+
+#include <glm/vec3.hpp>
+
+#include <span>
+#include <string>
+#include <string_view>
+
+/// What the hand holds: a tool, an operator, a brush and two profiles. Data only.
+namespace celadon::ui {
+
+enum class Tool {
+    Paint,  ///< strokes with the operator
+    Select, ///< strokes that add to the selection
+    Pick    ///< takes the profile under the cursor
+};
+
+/// The operators of subedit/edit, as a palette shows them.
+enum class PaintOperator {
+    Profile,     ///< mixes in the primary profile
+    ScaleAlbedo, ///< lighter, darker
+    SetAlbedo,
+    Tint,
+    ScaleRange, ///< softer, harder
+    SetRange,
+    Shape ///< of the primary profile, albedo and range stay
+};
+
+struct PaintOperatorName {
+    PaintOperator op;
+    std::string_view word; ///< in commands
+    const char* label;
+    const char* help;
+};
+[[nodiscard]] std::span<const PaintOperatorName> paintOperators();
+/// @throws UsageError
+[[nodiscard]] PaintOperator parsePaintOperator(std::string_view word);
+
+struct NamedProfile {
+    std::string name;
+    subedit::StoredProfile profile;
+};
+
+struct PaintState {
+    Tool tool = Tool::Paint;
+    PaintOperator op = PaintOperator::Profile;
+    subedit::Brush brush;
+    bool mirror[3] = {false, false, false};
+    float amount = 1.0f;                  ///< of Profile and Tint
+    float albedoFactor = 1.25f;           ///< of ScaleAlbedo
+    float rangeFactor = 1.5f;             ///< of ScaleRange
+    glm::vec3 color{0.85f, 0.35f, 0.25f}; ///< of SetAlbedo (as albedo) and Tint
+    glm::vec3 rangeMm{3.0f};              ///< of SetRange
+    NamedProfile primary;
+    NamedProfile secondary;
+};
+
+/// @param inverted the other way: factors become their inverse, Profile takes the secondary
+[[nodiscard]] subedit::EditOperator makeOperator(const PaintState& state, bool inverted);
+
+/// The profile of one texel.
+[[nodiscard]] subedit::StoredProfile storedProfile(const subedit::MaterialMap& map, int x, int y);
+/// At texture coordinate uv, interpolated.
+[[nodiscard]] subedit::StoredProfile storedProfileAt(const subedit::MaterialMap& map, glm::vec2 uv);
+/// Normalized diffusion with this albedo and these effective radii.
+[[nodiscard]] subedit::StoredProfile diffusionProfile(const glm::vec3& albedo,
+                                                      const glm::vec3& radiusMm);
+/// As a material of one texel, for previews.
+[[nodiscard]] subedit::MaterialMap homogeneousMaterial(const NamedProfile& profile, float eta);
+
+} // namespace celadon::ui

@@ -1,0 +1,180 @@
+#include "ui/panels/brush_panel.h"
+
+#include "ui/theme.h"
+#include "ui/widgets/fields.h"
+#include "ui/widgets/profile_swatch.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <array>
+
+namespace celadon::ui {
+
+namespace {
+
+void change(Session& session, const char* command, const char* name, double value) {
+    session.perform({command, {{name, value}}});
+}
+
+void drawOperators(Session& session) {
+    heading("Operator");
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    const float width = (ImGui::GetContentRegionAvail().x - 2.0f * gap) / 3.0f;
+    int column = 0;
+    for (const PaintOperatorName& name : paintOperators()) {
+        if (column > 0) {
+            ImGui::SameLine(0.0f, gap);
+        }
+        column = (column + 1) % 3;
+        const bool isCurrent = session.paint.op == name.op;
+        ImGui::PushStyleColor(ImGuiCol_Button, isCurrent
+                                                   ? colors::kAccentDim
+                                                   : ImGui::GetStyleColorVec4(ImGuiCol_Button));
+        if (ImGui::Button(name.label, {width, 0.0f})) {
+            session.perform({"operator.change", {{"name", std::string(name.word)}}});
+        }
+        ImGui::PopStyleColor();
+        tooltip(name.help);
+    }
+}
+
+void drawParameters(Session& session) {
+    PaintState& paint = session.paint;
+    switch (paint.op) {
+    case PaintOperator::Profile:
+    case PaintOperator::Shape:
+        drawProfilePair(session);
+        break;
+    default:
+        break;
+    }
+    if (paint.op == PaintOperator::ScaleAlbedo) {
+        float factor = paint.albedoFactor;
+        if (sliderField("Factor", factor, 0.25f, 4.0f, "\xc3\x97 %.2f",
+                        "The diffuse albedo is multiplied by this, up to 1", true)) {
+            change(session, "operator.change", "albedoFactor", static_cast<double>(factor));
+        }
+    }
+    if (paint.op == PaintOperator::ScaleRange) {
+        float factor = paint.rangeFactor;
+        if (sliderField("Factor", factor, 0.25f, 4.0f, "\xc3\x97 %.2f",
+                        "The effective scattering radius is multiplied by this", true)) {
+            change(session, "operator.change", "rangeFactor", static_cast<double>(factor));
+        }
+    }
+    if (paint.op == PaintOperator::SetAlbedo || paint.op == PaintOperator::Tint) {
+        float rgb[3] = {paint.color.r, paint.color.g, paint.color.b};
+        if (colorField(paint.op == PaintOperator::Tint ? "Color" : "Albedo", rgb,
+                       "Linear; as albedo: the part of the light that comes out again")) {
+            session.perform({"operator.change", {{"color", {rgb[0], rgb[1], rgb[2]}}}});
+        }
+    }
+    if (paint.op == PaintOperator::SetRange) {
+        constexpr std::array<const char*, 3> kNames{"Red", "Green", "Blue"};
+        for (int c = 0; c < 3; ++c) {
+            float radius = paint.rangeMm[c];
+            if (sliderField(kNames[static_cast<std::size_t>(c)], radius, 0.1f, 40.0f, "%.2f mm",
+                            "Effective scattering radius R_P: holds 95 % of the energy, mm",
+                            true)) {
+                glm::vec3 range = paint.rangeMm;
+                range[c] = radius;
+                session.perform({"operator.change", {{"range", {range.r, range.g, range.b}}}});
+            }
+        }
+    }
+    if (paint.op == PaintOperator::Profile || paint.op == PaintOperator::Tint) {
+        float amount = 100.0f * paint.amount;
+        if (sliderField("Amount", amount, 0.0f, 100.0f, "%.0f %%",
+                        "How much of it a full stroke mixes in")) {
+            change(session, "operator.change", "amount", static_cast<double>(amount) / 100.0);
+        }
+    }
+}
+
+void drawBrush(Session& session) {
+    heading("Brush");
+    const subedit::Brush& brush = session.paint.brush;
+    const float size = static_cast<float>(session.world().scatteringSphere.radius);
+    float radius = brush.radiusMm;
+    if (sliderField("Radius", radius, 0.002f * size, size, "%.2f mm",
+                    "On the surface, mm (F and move the mouse, or [ and ])", true)) {
+        change(session, "brush.change", "radius", static_cast<double>(radius));
+    }
+    const auto percent = [&](const char* label, const char* name, float value, const char* help) {
+        float shown = 100.0f * value;
+        if (sliderField(label, shown, name == std::string_view("hardness") ? 0.0f : 1.0f, 100.0f,
+                        "%.0f %%", help)) {
+            change(session, "brush.change", name, static_cast<double>(shown) / 100.0);
+        }
+    };
+    percent("Flow", "flow", brush.flow, "What one dab adds (Shift+F and move the mouse)");
+    percent("Opacity", "opacity", brush.opacity, "What one stroke reaches at most");
+    percent("Hardness", "hardness", brush.hardness,
+            "Part of the radius at full strength; the rest falls off smoothly");
+    float spacing = 100.0f * brush.spacing;
+    if (sliderField("Spacing", spacing, 5.0f, 200.0f, "%.0f %%",
+                    "Distance of dabs along the stroke, in percent of the radius")) {
+        change(session, "brush.change", "spacing", static_cast<double>(spacing) / 100.0);
+    }
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted("Mirror");
+    tooltip("Repeats strokes on the other side of planes through the object's center");
+    constexpr std::array<const char*, 3> kAxes{"X", "Y", "Z"};
+    constexpr std::array<const char*, 3> kNames{"x", "y", "z"};
+    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * 0.38f);
+    for (std::size_t i = 0; i < 3; ++i) {
+        bool isOn = session.paint.mirror[i];
+        if (ImGui::Checkbox(kAxes[i], &isOn)) {
+            session.perform({"brush.mirror", {{kNames[i], isOn}}});
+        }
+        tooltip("Across the plane through the object's center that is perpendicular to this axis");
+        ImGui::SameLine();
+    }
+    ImGui::NewLine();
+}
+
+void drawHistory(Session& session) {
+    const subedit::Document* const document = session.activeDocument();
+    if (document == nullptr) {
+        return;
+    }
+    heading("History");
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    const float width = (ImGui::GetContentRegionAvail().x - gap) / 2.0f;
+    const auto button = [&](const char* label, bool enabled, const char* command,
+                            const std::string& help) {
+        ImGui::BeginDisabled(!enabled);
+        if (ImGui::Button(label, {width, 0.0f})) {
+            session.perform({command});
+        }
+        ImGui::EndDisabled();
+        tooltip(help.c_str());
+    };
+    button("Undo", document->canUndo(), "edit.undo",
+           document->canUndo() ? fmt::format("{} (Ctrl+Z)", document->undoTitle()) : "Ctrl+Z");
+    ImGui::SameLine(0.0f, gap);
+    button("Redo", document->canRedo(), "edit.redo",
+           document->canRedo() ? fmt::format("{} (Ctrl+Shift+Z)", document->redoTitle())
+                               : "Ctrl+Shift+Z");
+}
+
+} // namespace
+
+void drawBrushPanel(Session& session) {
+    if (session.activeDocument() == nullptr) {
+        hint(session.services().isPaintable ? "There is no material to paint on."
+                                            : "The editor was started with --view-only.");
+        return;
+    }
+    drawOperators(session);
+    drawParameters(session);
+    if (ImGui::Button("Fill", {-1.0f, 0.0f})) {
+        session.perform({"edit.fill"});
+    }
+    tooltip("Applies the operator to the whole selection, or to everything if nothing is selected");
+    drawBrush(session);
+    drawHistory(session);
+}
+
+} // namespace celadon::ui

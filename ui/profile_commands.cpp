@@ -1,0 +1,116 @@
+// Commands about the two profiles in hand. Radii in mm, P in 1/mm^2.
+#include "subedit/edit/profile_editor.h"
+#include "subedit/errors.h"
+#include "subedit/map/material_file.h"
+#include "subedit/map/shipped_materials.h"
+#include "ui/session.h"
+
+#include <fmt/format.h>
+#include <glm/vec3.hpp>
+
+#include <utility>
+
+namespace celadon::ui {
+
+namespace {
+
+NamedProfile& profileOf(Session& session, const Arguments& a) {
+    const std::string which = a.text("which", "primary");
+    if (which != "primary" && which != "secondary") {
+        throw UsageError("profile", fmt::format("'{}' is neither primary nor secondary", which));
+    }
+    return which == "primary" ? session.paint.primary : session.paint.secondary;
+}
+
+subedit::ProfileLayout layoutOf(const subedit::StoredProfile& profile) {
+    return {profile.segments, profile.maxRadiusMm};
+}
+
+/// Changes a profile by albedo, range or single knots.
+void changeProfile(subedit::StoredProfile& profile, const Arguments& a) {
+    subedit::ProfileEditor editor(layoutOf(profile));
+    editor.load(profile.logProfile.data());
+    if (a.has("albedo")) {
+        const glm::vec3 albedo(a.vector3("albedo"));
+        for (int c = 0; c < 3; ++c) {
+            editor.setAlbedo(c, glm::clamp(albedo[c], 0.0f, subedit::kLargestAlbedo));
+        }
+    }
+    if (a.has("radius")) {
+        const glm::vec3 radius(a.vector3("radius"));
+        for (int c = 0; c < 3; ++c) {
+            const float now = editor.radiusMm(c, 0.95f);
+            if (now > 0.0f && radius[c] > 0.0f) {
+                editor.scaleRange(c, radius[c] / now);
+            }
+        }
+    }
+    profile.logProfile.assign(editor.result(), editor.result() + layoutOf(profile).values());
+}
+
+void moveKnot(subedit::StoredProfile& profile, const Arguments& a) {
+    const int knot = a.integerWithin("knot", 0, profile.segments);
+    const int channel = a.integerWithin("channel", 0, 2);
+    const auto value = static_cast<float>(
+        a.numberWithin("log", static_cast<double>(subedit::kLogProfileFloor), 10.0));
+    subedit::ProfileEditor editor(layoutOf(profile));
+    editor.load(profile.logProfile.data());
+    editor.values()[knot * 3 + channel] = value;
+    editor.measure();
+    for (int c = 0; c < 3; ++c) {
+        if (editor.albedo()[c] > subedit::kLargestAlbedo) { // more light than came in
+            editor.setAlbedo(c, subedit::kLargestAlbedo);
+        }
+    }
+    profile.logProfile.assign(editor.result(), editor.result() + layoutOf(profile).values());
+}
+
+} // namespace
+
+void addProfileCommands(Session& session) {
+    Dispatcher& commands = session.dispatcher();
+    commands.add("profile.swap", "Primary becomes secondary and the other way round",
+                 [&session](const Arguments&) {
+                     std::swap(session.paint.primary, session.paint.secondary);
+                 });
+    commands.add("profile.pick", "Takes the profile at a place of the map: uv",
+                 [&session](const Arguments& a) {
+                     const subedit::Document* const document = session.document(
+                         a.integerWithin("material", 0, std::max(0, session.materialCount() - 1)));
+                     if (document == nullptr) {
+                         throw UsageError("profile", "there is no material to pick from");
+                     }
+                     profileOf(session, a) = {
+                         "Picked",
+                         storedProfileAt(document->material(), glm::vec2(a.vector2("uv")))};
+                 });
+    commands.add("profile.medium", "Takes the profile of a homogeneous material, by file or name",
+                 [&session](const Arguments& a) {
+                     const std::string name = a.text("name");
+                     const subedit::MaterialMap map =
+                         subedit::readMaterial(subedit::findMaterial(name));
+                     profileOf(session, a) = {map.name.empty() ? name : map.name,
+                                              storedProfile(map, map.width / 2, map.height / 2)};
+                 });
+    commands.add("profile.diffusion", "Normalized diffusion with an albedo and radii R_P in mm",
+                 [&session](const Arguments& a) {
+                     profileOf(session, a) = {
+                         a.text("name", "Custom"),
+                         diffusionProfile(glm::clamp(glm::vec3(a.vector3("albedo")), 0.0f, 0.999f),
+                                          glm::clamp(glm::vec3(a.vector3("radius")), 1e-3f, 1e3f))};
+                 });
+    commands.add("profile.change", "Changes albedo or radii R_P (mm) per channel",
+                 [&session](const Arguments& a) {
+                     NamedProfile changed = profileOf(session, a);
+                     changeProfile(changed.profile, a);
+                     profileOf(session, a) = std::move(changed);
+                 });
+    commands.add("profile.knot", "Moves one knot of a channel: log is ln P, P in 1/mm^2",
+                 [&session](const Arguments& a) {
+                     NamedProfile changed = profileOf(session, a);
+                     moveKnot(changed.profile, a);
+                     profileOf(session, a) = std::move(changed);
+                 });
+}
+
+} // namespace celadon::ui

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "ui/command.h"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+/// Commands as a file, one line of JSON each; lines that are empty or begin with # are skipped.
+namespace celadon::ui {
+
+/// Writes each command as it happens, so that a crash loses none.
+class Recorder {
+public:
+    /// @throws OutputError
+    explicit Recorder(const std::filesystem::path& file);
+    void write(const Command& command);
+
+private:
+    std::filesystem::path mFile;
+    std::ofstream mStream;
+};
+
+/// @throws InputError naming file and line
+[[nodiscard]] std::vector<Command> readCommands(const std::filesystem::path& file);
+
+} // namespace celadon::ui

@@ -1,0 +1,96 @@
+#include "ui/session.h"
+
+#include "renderer/scene/camera.h"
+#include "subedit/errors.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace celadon::ui {
+
+Session::Session(SessionServices services) : mServices(std::move(services)) {
+    addBrushCommands(*this);
+    addCameraCommands(*this);
+    addFileCommands(*this);
+    addLightCommands(*this);
+    addPaintCommands(*this);
+    addProfileCommands(*this);
+    addViewCommands(*this);
+    paint.primary = {"Milky rose", diffusionProfile({0.92f, 0.62f, 0.55f}, {6.0f, 3.0f, 2.2f})};
+    paint.secondary = {"Jade", diffusionProfile({0.42f, 0.74f, 0.55f}, {2.5f, 5.0f, 3.2f})};
+}
+
+bool Session::perform(const Command& command) {
+    try {
+        mDispatcher.execute(command);
+        return true;
+    } catch (const Error& error) {
+        notify(Notice::Kind::Error, error.what());
+        return false;
+    }
+}
+
+void Session::notify(Notice::Kind kind, const std::string& text) {
+    constexpr std::size_t kMostNotices = 4;
+    std::erase_if(notices, [&](const Notice& notice) { return notice.text == text; });
+    notices.push_back({kind, text});
+    if (notices.size() > kMostNotices) {
+        notices.erase(notices.begin());
+    }
+}
+
+void Session::adopt(const OpenRequest& request, OpenedScene scene) {
+    for (const std::string& warning : scene.world.warnings) {
+        notify(Notice::Kind::Warning, warning);
+    }
+    const bool isSameModel = mWorld != nullptr && mOpened.model == request.model;
+    mStrokeMaterial = -1;
+    mWorld = std::make_shared<const World>(std::move(scene.world));
+    mRendered = std::move(scene.rendered);
+    mDocuments = std::move(scene.documents);
+    mOpened = request;
+    activeMaterial = 0;
+    materialFile.reset();
+    if (request.material.ends_with(".subedit.exr")) {
+        materialFile = request.material;
+    }
+    mSavedRevision = mMaterialRevision;
+    if (!isSameModel) {
+        camera = chooseCamera(*mWorld, {}, aspect);
+        fileCamera = camera;
+        const std::optional<RigEnvironment> environment = rig.environment;
+        rig = {};
+        rig.environment = environment;
+        for (const Light& light : mWorld->lights) {
+            rig.lights.push_back({lightKindName(light.kind), true, light});
+        }
+        if (rig.lights.empty()) {
+            rig.lights = lightPreset("back", camera, mWorld->scatteringSphere);
+        }
+        selectedLight = 0;
+        paint.brush.radiusMm = static_cast<float>(0.08 * mWorld->scatteringSphere.radius);
+    }
+    ++mWorldRevision;
+    touchPicture();
+}
+
+std::vector<std::shared_ptr<subedit::MaterialMap>> Session::takeRenderedMaterials() {
+    return std::exchange(mRendered, {});
+}
+
+const subedit::Document* Session::document(int material) const {
+    return material >= 0 && material < materialCount()
+               ? mDocuments[static_cast<std::size_t>(material)].get()
+               : nullptr;
+}
+
+subedit::Document* Session::document(int material) {
+    return const_cast<subedit::Document*>(std::as_const(*this).document(material));
+}
+
+void Session::touchMaterial() {
+    ++mMaterialRevision;
+    touchPicture();
+}
+
+} // namespace celadon::ui

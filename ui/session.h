@@ -1,0 +1,141 @@
+#pragma once
+
+#include "renderer/output/tone_map.h"
+#include "renderer/scene/world.h"
+#include "renderer/shading/view_mode_pass.h"
+#include "ui/command.h"
+#include "ui/light_rig.h"
+#include "ui/opened_scene.h"
+#include "ui/paint_state.h"
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What is being worked on: model, materials, camera, lights, view, tools, and the commands that
+/// change them. No window, no GL: widgets read it and make commands, the editor watches revisions.
+namespace celadon::ui {
+
+/// What to open. No material: the model's own, or the shipped default.
+struct OpenRequest {
+    std::string model;
+    std::string material;
+};
+
+/// What the editor cannot do by itself, given by the program.
+struct SessionServices {
+    /// @throws celadon::Error
+    std::function<World(const OpenRequest&)> readWorld;
+    bool isPaintable = true;
+};
+
+/// A message to the user that can be dismissed.
+struct Notice {
+    enum class Kind { Info, Warning, Error };
+    Kind kind = Kind::Info;
+    std::string text;
+    std::chrono::steady_clock::time_point since = std::chrono::steady_clock::now();
+};
+
+struct ViewState {
+    ViewModeSettings mode;
+    float exposureEv = 0.0f;
+    ToneMap toneMap = ToneMap::Neutral;
+    bool specular = true;
+};
+
+class Session {
+public:
+    explicit Session(SessionServices services);
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    /// Executes; what goes wrong becomes a notice. For widgets and keys.
+    /// @return whether it was done
+    bool perform(const Command& command);
+    /// The same, throwing. For replays and tests. @throws celadon::Error
+    void execute(const Command& command) { mDispatcher.execute(command); }
+    [[nodiscard]] Dispatcher& dispatcher() { return mDispatcher; }
+    [[nodiscard]] const SessionServices& services() const { return mServices; }
+
+    /// A scene that was read elsewhere becomes the one that is worked on.
+    void adopt(const OpenRequest& request, OpenedScene scene);
+
+    [[nodiscard]] bool hasWorld() const { return mWorld != nullptr; }
+    /// Its materials belong to the picture's thread: documents have what is edited.
+    [[nodiscard]] const World& world() const { return *mWorld; }
+    [[nodiscard]] const std::shared_ptr<const World>& sharedWorld() const { return mWorld; }
+    [[nodiscard]] const OpenRequest& opened() const { return mOpened; }
+    /// Maps of the world just adopted; once.
+    [[nodiscard]] std::vector<std::shared_ptr<subedit::MaterialMap>> takeRenderedMaterials();
+
+    // Painting (paint_commands.cpp).
+    [[nodiscard]] int materialCount() const { return static_cast<int>(mDocuments.size()); }
+    /// Null where there is none to paint on.
+    [[nodiscard]] subedit::Document* document(int material);
+    [[nodiscard]] const subedit::Document* document(int material) const;
+    [[nodiscard]] subedit::Document* activeDocument() { return document(activeMaterial); }
+    [[nodiscard]] const subedit::Document* activeDocument() const {
+        return document(activeMaterial);
+    }
+    /// A stroke as it happens. Its end is the command that a replay repeats.
+    void beginStroke(int material, const subedit::StrokePoint& point, bool inverted);
+    void addStrokePoint(const subedit::StrokePoint& point);
+    void endStroke();
+    void cancelStroke();
+    [[nodiscard]] bool isStrokeOpen() const { return mStrokeMaterial >= 0; }
+    /// After anything that changed a document's content.
+    void touchMaterial();
+    [[nodiscard]] bool isModified() const { return mMaterialRevision != mSavedRevision; }
+    void markSaved() { mSavedRevision = mMaterialRevision; }
+
+    // State that commands change and widgets read.
+    Camera camera;
+    std::optional<Camera> fileCamera; ///< the view that the scene opens with
+    LightRig rig;
+    int selectedLight = 0;
+    ViewState view;
+    PaintState paint;
+    int activeMaterial = 0;
+    std::optional<std::filesystem::path> materialFile; ///< where Save writes
+    double aspect = 16.0 / 9.0;                        ///< of the viewport; set by the window
+    std::vector<Notice> notices;
+
+    void notify(Notice::Kind kind, const std::string& text);
+
+    /// Grows with every change of what the viewport shows, except its size.
+    [[nodiscard]] std::uint64_t pictureRevision() const { return mPictureRevision; }
+    void touchPicture() { ++mPictureRevision; }
+    /// Grows when another world is opened.
+    [[nodiscard]] std::uint64_t worldRevision() const { return mWorldRevision; }
+    [[nodiscard]] std::uint64_t materialRevision() const { return mMaterialRevision; }
+
+private:
+    SessionServices mServices;
+    Dispatcher mDispatcher;
+    std::shared_ptr<const World> mWorld;
+    OpenRequest mOpened;
+    std::vector<std::shared_ptr<subedit::MaterialMap>> mRendered;
+    std::vector<std::unique_ptr<subedit::Document>> mDocuments;
+    int mStrokeMaterial = -1;
+    std::uint64_t mPictureRevision = 1;
+    std::uint64_t mWorldRevision = 0;
+    std::uint64_t mMaterialRevision = 0;
+    std::uint64_t mSavedRevision = 0;
+};
+
+// Each file of commands registers its own (camera_commands.cpp and so on).
+void addBrushCommands(Session& session);
+void addCameraCommands(Session& session);
+void addFileCommands(Session& session);
+void addLightCommands(Session& session);
+void addPaintCommands(Session& session);
+void addProfileCommands(Session& session);
+void addViewCommands(Session& session);
+
+} // namespace celadon::ui

@@ -1,0 +1,138 @@
+#include "ui/widgets/fields.h"
+
+#include "ui/theme.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+namespace celadon::ui {
+
+namespace {
+
+constexpr float kLabelPart = 0.38f; ///< of the width
+
+void label(const char* text, const char* help) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.70f, 0.73f, 0.72f, 1.0f));
+    ImGui::TextUnformatted(text);
+    ImGui::PopStyleColor();
+    tooltip(help);
+    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * kLabelPart);
+    ImGui::SetNextItemWidth(-1.0f);
+}
+
+} // namespace
+
+void tooltip(const char* text) {
+    constexpr float kDelaySeconds = 0.35f;
+    if (text == nullptr || *text == '\0' ||
+        !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
+        return;
+    }
+    if (ImGui::GetCurrentContext() != nullptr) {
+        static_cast<void>(kDelaySeconds);
+        ImGui::BeginTooltip();
+        ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24.0f);
+        ImGui::TextUnformatted(text);
+        ImGui::PopTextWrapPos();
+        ImGui::EndTooltip();
+    }
+}
+
+void heading(const char* text) {
+    ImGui::Spacing();
+    ImGui::PushFont(font(Font::Heading));
+    ImGui::PushStyleColor(ImGuiCol_Text, colors::kAccent);
+    ImGui::TextUnformatted(text);
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+}
+
+void hint(const char* text) {
+    ImGui::PushFont(font(Font::Small));
+    ImGui::PushStyleColor(ImGuiCol_Text, colors::kMuted);
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+}
+
+bool sliderField(const char* name, float& value, float least, float most, const char* format,
+                 const char* help, bool logarithmic) {
+    ImGui::PushID(name);
+    label(name, help);
+    const ImGuiSliderFlags flags =
+        logarithmic ? ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_NoRoundToFormat : 0;
+    const bool changed = ImGui::SliderFloat("##value", &value, least, most, format, flags);
+    tooltip(help);
+    ImGui::PopID();
+    if (changed) { // a number typed with Ctrl+click may lie anywhere
+        value = std::clamp(value, least, most);
+    }
+    return changed;
+}
+
+bool sliderField(const char* name, int& value, int least, int most, const char* format,
+                 const char* help) {
+    ImGui::PushID(name);
+    label(name, help);
+    const bool changed = ImGui::SliderInt("##value", &value, least, most, format);
+    tooltip(help);
+    ImGui::PopID();
+    if (changed) {
+        value = std::clamp(value, least, most);
+    }
+    return changed;
+}
+
+bool colorField(const char* name, float rgb[3], const char* help) {
+    ImGui::PushID(name);
+    label(name, help);
+    const bool changed = ImGui::ColorEdit3(
+        "##value", rgb, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoOptions);
+    tooltip(help);
+    ImGui::PopID();
+    return changed;
+}
+
+int choiceRow(const char* id, const char* const* labels, const char* const* helps, int count,
+              int current) {
+    ImGui::PushID(id);
+    int clicked = -1;
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    const float width = (ImGui::GetContentRegionAvail().x - gap * static_cast<float>(count - 1)) /
+                        static_cast<float>(count);
+    for (int i = 0; i < count; ++i) {
+        if (i > 0) {
+            ImGui::SameLine(0.0f, gap);
+        }
+        const bool isCurrent = i == current;
+        if (isCurrent) {
+            ImGui::PushStyleColor(ImGuiCol_Button, colors::kAccentDim);
+            ImGui::PushStyleColor(ImGuiCol_ButtonHovered, colors::kAccentDim);
+        }
+        if (ImGui::Button(labels[i], {width, 0.0f})) {
+            clicked = i;
+        }
+        if (isCurrent) {
+            ImGui::PopStyleColor(2);
+        }
+        tooltip(helps != nullptr ? helps[i] : nullptr);
+    }
+    ImGui::PopID();
+    return clicked;
+}
+
+void readout(const char* name, const std::string& value, const char* help) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.70f, 0.73f, 0.72f, 1.0f));
+    ImGui::TextUnformatted(name);
+    ImGui::PopStyleColor();
+    tooltip(help);
+    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * kLabelPart);
+    ImGui::TextUnformatted(value.c_str());
+    tooltip(help);
+}
+
+} // namespace celadon::ui

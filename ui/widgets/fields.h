@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+/// Small widgets with a label above or beside, a unit and a tooltip; each returns whether the value
+/// was changed just now.
+namespace celadon::ui {
+
+/// Shows `text` when the last widget is hovered for a moment.
+void tooltip(const char* text);
+void heading(const char* text);
+/// Muted, wrapped text.
+void hint(const char* text);
+
+bool sliderField(const char* label, float& value, float least, float most, const char* format,
+                 const char* help, bool logarithmic = false);
+bool sliderField(const char* label, int& value, int least, int most, const char* format,
+                 const char* help);
+bool colorField(const char* label, float rgb[3], const char* help);
+/// A row of words of which one is chosen. @return index that was clicked, -1: none
+int choiceRow(const char* id, const char* const* labels, const char* const* helps, int count,
+              int current);
+/// A name and a value, for readouts.
+void readout(const char* name, const std::string& value, const char* help);
+
+} // namespace celadon::ui

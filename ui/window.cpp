@@ -1,0 +1,244 @@
+#include "ui/window.h"
+
+#include "renderer/gl/context_glfw.h"
+#include "subedit/errors.h"
+#include "ui/theme.h"
+
+#include <glad/gl.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace celadon::ui {
+
+namespace {
+
+constexpr int kLeastSize = 320;
+
+Window* windowOf(GLFWwindow* handle) {
+    return static_cast<Window*>(glfwGetWindowUserPointer(handle));
+}
+
+GLFWwindow* createGlfwWindow(const std::string& title, glm::ivec2 size, bool visible,
+                             GLFWwindow* share) {
+    glfwDefaultWindowHints();
+    gl::setGlfwContextHints();
+    glfwWindowHint(GLFW_VISIBLE, visible ? GLFW_TRUE : GLFW_FALSE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0); // the window shows pictures only
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    GLFWwindow* const window = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, share);
+    if (window == nullptr) {
+        const char* text = nullptr;
+        glfwGetError(&text);
+        throw ContextError("window", text != nullptr ? text : "GLFW gives no reason",
+                           "'celadon render' needs no display");
+    }
+    return window;
+}
+
+} // namespace
+
+Window::Window(const std::string& title, glm::ivec2 size, double scale) : mTitle(title) {
+    gl::Context::releaseCurrent();
+    gl::initializeGlfw();
+    mWindow = createGlfwWindow(title, size, true, nullptr);
+    mWorkerWindow = createGlfwWindow("Celadon renderer", {1, 1}, false, nullptr);
+    glfwSetWindowSizeLimits(mWindow, kLeastSize, kLeastSize, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    mContext = gl::createWindowContext(mWindow);
+    glfwSwapInterval(mContext->isSoftware() ? 0 : 1);
+    if (scale > 0.0) {
+        mScale = static_cast<float>(scale);
+    } else {
+        float x = 1.0f;
+        float y = 1.0f;
+        glfwGetWindowContentScale(mWindow, &x, &y);
+        mScale = std::clamp(std::max(x, y), 0.5f, 4.0f);
+    }
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr; // the layout is fixed
+    ImGui::GetIO().LogFilename = nullptr;
+    ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;
+    installCallbacks();
+    ImGui_ImplGlfw_InitForOpenGL(mWindow, true); // calls ours as well
+    ImGui_ImplOpenGL3_Init("#version 450");
+}
+
+Window::~Window() {
+    mContext->makeCurrent();
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+    mContext.reset();
+    glfwDestroyWindow(mWorkerWindow);
+    glfwDestroyWindow(mWindow);
+}
+
+void Window::installCallbacks() {
+    glfwSetWindowUserPointer(mWindow, this);
+    glfwSetCursorPosCallback(mWindow, [](GLFWwindow* handle, double x, double y) {
+        Window& self = *windowOf(handle);
+        self.mHadEvents = true;
+        self.mInput.push_back({InputEvent::Kind::Move, {x, y}});
+    });
+    glfwSetMouseButtonCallback(
+        mWindow, [](GLFWwindow* handle, int button, int action, int modifiers) {
+            Window& self = *windowOf(handle);
+            self.mHadEvents = true;
+            InputEvent event{action == GLFW_RELEASE ? InputEvent::Kind::Release
+                                                    : InputEvent::Kind::Press};
+            glfwGetCursorPos(handle, &event.positionPx.x, &event.positionPx.y);
+            event.button = button;
+            event.modifiers = modifiers;
+            self.mInput.push_back(event);
+        });
+    glfwSetScrollCallback(mWindow, [](GLFWwindow* handle, double, double y) {
+        Window& self = *windowOf(handle);
+        self.mHadEvents = true;
+        InputEvent event{InputEvent::Kind::Wheel};
+        glfwGetCursorPos(handle, &event.positionPx.x, &event.positionPx.y);
+        event.wheel = y;
+        self.mInput.push_back(event);
+    });
+    glfwSetKeyCallback(mWindow, [](GLFWwindow* handle, int key, int, int action, int modifiers) {
+        Window& self = *windowOf(handle);
+        self.mHadEvents = true;
+        if (action != GLFW_RELEASE) {
+            InputEvent event{InputEvent::Kind::Key};
+            glfwGetCursorPos(handle, &event.positionPx.x, &event.positionPx.y);
+            event.button = key;
+            event.modifiers = modifiers;
+            self.mInput.push_back(event);
+        }
+    });
+    glfwSetDropCallback(mWindow, [](GLFWwindow* handle, int count, const char** paths) {
+        Window& self = *windowOf(handle);
+        self.mHadEvents = true;
+        self.mDropped.insert(self.mDropped.end(), paths, paths + count);
+    });
+    const auto redraw = [](GLFWwindow* handle) { windowOf(handle)->mHadEvents = true; };
+    glfwSetWindowRefreshCallback(mWindow, redraw);
+    glfwSetWindowCloseCallback(mWindow, redraw);
+    glfwSetCharCallback(mWindow,
+                        [](GLFWwindow* handle, unsigned) { windowOf(handle)->mHadEvents = true; });
+    glfwSetFramebufferSizeCallback(
+        mWindow, [](GLFWwindow* handle, int, int) { windowOf(handle)->mHadEvents = true; });
+}
+
+glm::ivec2 Window::sizePx() const {
+    glm::ivec2 size(0);
+    glfwGetFramebufferSize(mWindow, &size.x, &size.y);
+    return size;
+}
+
+void Window::setScale(float scale) {
+    mScale = std::clamp(scale, 0.5f, 4.0f);
+    mFontsStale = true;
+    mHadEvents = true;
+}
+
+void Window::waitEvents(double seconds) {
+    if (seconds < 0.0) {
+        glfwWaitEvents();
+    } else if (seconds > 0.0) {
+        glfwWaitEventsTimeout(seconds);
+    } else {
+        glfwPollEvents();
+    }
+}
+
+void Window::wake() {
+    glfwPostEmptyEvent();
+}
+
+std::vector<InputEvent> Window::takeInput() {
+    return std::exchange(mInput, {});
+}
+
+std::vector<std::filesystem::path> Window::takeDroppedFiles() {
+    return std::exchange(mDropped, {});
+}
+
+void Window::beginFrame() {
+    mContext->makeCurrent();
+    if (mFontsStale) {
+        loadFonts(mScale);
+        applyTheme(mScale);
+        ImGui_ImplOpenGL3_DestroyFontsTexture();
+        ImGui_ImplOpenGL3_CreateFontsTexture();
+        mFontsStale = false;
+    }
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+}
+
+void Window::endFrame() {
+    ImGui::Render();
+    const glm::ivec2 size = sizePx();
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, size.x, size.y);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_RASTERIZER_DISCARD);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glClearColor(0.055f, 0.06f, 0.065f, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void Window::present() {
+    glfwSwapBuffers(mWindow);
+}
+
+std::vector<unsigned char> Window::readBackBuffer() const {
+    const glm::ivec2 size = sizePx();
+    const auto row = static_cast<std::size_t>(size.x) * 3;
+    std::vector<unsigned char> upward(row * static_cast<std::size_t>(size.y));
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    glReadBuffer(GL_BACK);
+    glReadPixels(0, 0, size.x, size.y, GL_RGB, GL_UNSIGNED_BYTE, upward.data());
+    std::vector<unsigned char> downward(upward.size());
+    for (std::size_t y = 0; y < static_cast<std::size_t>(size.y); ++y) {
+        std::copy_n(upward.data() + y * row, row,
+                    downward.data() + (static_cast<std::size_t>(size.y) - 1 - y) * row);
+    }
+    return downward;
+}
+
+bool Window::wantsClose() const {
+    return glfwWindowShouldClose(mWindow) == GLFW_TRUE;
+}
+
+void Window::cancelClose() {
+    glfwSetWindowShouldClose(mWindow, GLFW_FALSE);
+}
+
+void Window::setTitle(const std::string& title) {
+    if (title != mTitle) {
+        mTitle = title;
+        glfwSetWindowTitle(mWindow, title.c_str());
+    }
+}
+
+void Window::toggleFullScreen() {
+    if (glfwGetWindowMonitor(mWindow) != nullptr) {
+        glfwSetWindowMonitor(mWindow, nullptr, mWindowed.x, mWindowed.y, mWindowed.z, mWindowed.w,
+                             GLFW_DONT_CARE);
+        return;
+    }
+    GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
+    const GLFWvidmode* const mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+    if (mode == nullptr) {
+        return;
+    }
+    glfwGetWindowPos(mWindow, &mWindowed.x, &mWindowed.y);
+    glfwGetWindowSize(mWindow, &mWindowed.z, &mWindowed.w);
+    glfwSetWindowMonitor(mWindow, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+} // namespace celadon::ui

@@ -1,0 +1,82 @@
+#pragma once
+
+#include "renderer/gl/context.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+struct GLFWwindow;
+
+/// A GLFW window with Dear ImGui on it, and what hands do to it, in order. Main thread.
+namespace celadon::ui {
+
+/// What happened since the last frame, in order: nothing is lost between frames.
+struct InputEvent {
+    enum class Kind { Move, Press, Release, Wheel, Key };
+    Kind kind = Kind::Move;
+    glm::dvec2 positionPx{0.0}; ///< of the cursor, window pixels from the top left
+    int button = 0;             ///< GLFW's mouse button or key
+    int modifiers = 0;          ///< GLFW's
+    double wheel = 0.0;
+};
+
+class Window {
+public:
+    /// @throws ContextError: no display, no OpenGL 4.5
+    Window(const std::string& title, glm::ivec2 size, double scale);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    [[nodiscard]] GLFWwindow* handle() const { return mWindow; }
+    /// A hidden window with a context for another thread; lives as long as this one.
+    [[nodiscard]] GLFWwindow* workerWindow() const { return mWorkerWindow; }
+    [[nodiscard]] gl::Context& context() { return *mContext; }
+    /// Pixels of the frame buffer; zero while the window is minimized.
+    [[nodiscard]] glm::ivec2 sizePx() const;
+    /// Screen pixels per unit of layout.
+    [[nodiscard]] float scale() const { return mScale; }
+    void setScale(float scale);
+
+    /// Sleeps until something happens, or for so long. @param seconds 0: looks only; < 0: for ever
+    void waitEvents(double seconds);
+    /// From any thread.
+    static void wake();
+    [[nodiscard]] bool hadEvents() const { return mHadEvents; }
+    void clearHadEvents() { mHadEvents = false; }
+    [[nodiscard]] std::vector<InputEvent> takeInput();
+    [[nodiscard]] std::vector<std::filesystem::path> takeDroppedFiles();
+
+    void beginFrame();
+    /// Draws what ImGui was told; the back buffer can be read until present().
+    void endFrame();
+    void present();
+    /// The back buffer between endFrame() and present(): RGB, rows from the top.
+    [[nodiscard]] std::vector<unsigned char> readBackBuffer() const;
+
+    [[nodiscard]] bool wantsClose() const;
+    void cancelClose();
+    void setTitle(const std::string& title);
+    void toggleFullScreen();
+
+private:
+    void installCallbacks();
+
+    GLFWwindow* mWindow = nullptr;
+    GLFWwindow* mWorkerWindow = nullptr;
+    std::unique_ptr<gl::Context> mContext;
+    float mScale = 1.0f;
+    bool mFontsStale = true;
+    bool mHadEvents = true;
+    std::string mTitle;
+    std::vector<InputEvent> mInput;
+    std::vector<std::filesystem::path> mDropped;
+    glm::ivec4 mWindowed{0}; ///< place and size before full screen
+};
+
+} // namespace celadon::ui
