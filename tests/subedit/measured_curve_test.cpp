@@ -125,6 +125,13 @@ TEST(ProfileFit, ChoosesSegmentsAndKeepsTheAlbedo) {
     }
 }
 
+TEST(ProfileFit, BlackIsNoError) {
+    const RadialCurves black = measuredCurves(parseProfileCsv("0,0\n1,0\n2,0\n", "x"));
+    const FitError error = measureFit(black, fitProfile(black, {8}));
+    EXPECT_EQ(error.misplaced, glm::dvec3(0.0));
+    EXPECT_LT(std::abs(error.albedo.x), 1e-9);
+}
+
 TEST(ProfileFit, MisplacedEnergyIsSeen) {
     // A fit of another curve: the measure can fail.
     const RadialCurves one = normalizedDiffusionProfile(glm::dvec3(0.8), glm::dvec3(1.0));
