@@ -64,6 +64,12 @@ public:
     void setAlbedo(int channel, float albedo);
     /// P(r / s) / s^2 in each channel, at the same albedo. Without effect on a black channel.
     void scaleRange(const glm::vec3& scale);
+    /// The same for one channel.
+    void scaleRange(int channel, float scale) {
+        glm::vec3 scales(1.0f);
+        scales[channel] = scale;
+        scaleRange(scales);
+    }
     /// `values()` were written to: measures anew.
     void measure();
 
