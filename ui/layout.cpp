@@ -4,6 +4,7 @@
 #include "ui/panels/help_window.h"
 #include "ui/panels/light_panel.h"
 #include "ui/panels/material_panel.h"
+#include "ui/panels/preferences_window.h"
 #include "ui/panels/profile_panel.h"
 #include "ui/panels/view_panel.h"
 #include "ui/theme.h"
@@ -35,7 +36,21 @@ float sideBarWidth(float windowWidth, float scale) {
     return std::min(kSideBarWidth * scale, 0.5f * windowWidth);
 }
 
-void drawMenu(Session& session, LayoutState& state, const LayoutActions& actions) {
+void drawRecent(const char* label, const std::vector<std::string>& entries,
+                const std::function<void(const std::string&)>& open) {
+    if (ImGui::BeginMenu(label, !entries.empty())) {
+        for (const std::string& entry : entries) {
+            if (ImGui::MenuItem(entry.c_str())) {
+                open(entry);
+                break;
+            }
+        }
+        ImGui::EndMenu();
+    }
+}
+
+void drawMenu(Session& session, LayoutState& state, const Preferences& preferences,
+              const LayoutActions& actions) {
     if (!ImGui::BeginMainMenuBar()) {
         return;
     }
@@ -55,6 +70,8 @@ void drawMenu(Session& session, LayoutState& state, const LayoutActions& actions
             }
             ImGui::EndMenu();
         }
+        drawRecent("Recent models", preferences.recentModels, actions.open);
+        drawRecent("Recent materials", preferences.recentMaterials, actions.putOn);
         item("Open material\xe2\x80\xa6", "", actions.openMaterial);
         item("Open environment\xe2\x80\xa6", "", actions.openEnvironment);
         ImGui::Separator();
@@ -83,6 +100,10 @@ void drawMenu(Session& session, LayoutState& state, const LayoutActions& actions
         }
         if (ImGui::MenuItem("Swap profiles", "X")) {
             session.perform({"profile.swap"});
+        }
+        ImGui::Separator();
+        if (ImGui::MenuItem("Preferences\xe2\x80\xa6")) {
+            state.preferencesShown = true;
         }
         ImGui::EndMenu();
     }
@@ -261,15 +282,18 @@ ViewportRect viewportRect(glm::ivec2 windowPx, const LayoutState& state, float s
     return rect;
 }
 
-void drawLayout(Session& session, LayoutState& state, const LayoutActions& actions,
-                const Viewport& viewport, float scale) {
+void drawLayout(Session& session, LayoutState& state, Preferences& preferences,
+                const LayoutActions& actions, const Viewport& viewport, float scale) {
     if (state.panelsShown) {
-        drawMenu(session, state, actions);
+        drawMenu(session, state, preferences, actions);
         drawSideBar(session, state, actions, viewport, scale);
         drawStatus(session, state, viewport, scale);
     }
     drawNotices(session, viewport.rect(), scale);
     drawHelpWindow(state.helpShown, scale);
+    if (drawPreferencesWindow(preferences, state.preferencesShown, scale)) {
+        actions.preferencesChanged();
+    }
 }
 
 } // namespace celadon::ui

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "ui/preferences.h"
 #include "ui/session.h"
 #include "ui/viewport.h"
 
@@ -15,6 +16,7 @@ enum class Tab { Brush, Profile, Materials, Light, View };
 struct LayoutActions {
     std::function<void()> openModel, openMaterial, openEnvironment;
     std::function<void()> save, saveAs, savePicture, quit;
+    std::function<void()> preferencesChanged;
     std::function<void(const std::string&)> open;  ///< a recent file or builtin
     std::function<void(const std::string&)> putOn; ///< a material, by name or file
     std::function<void()> toggleFullScreen;
@@ -31,7 +33,7 @@ struct LayoutState {
 /// Where the viewport is, given what is shown.
 [[nodiscard]] ViewportRect viewportRect(glm::ivec2 windowPx, const LayoutState& state, float scale);
 
-void drawLayout(Session& session, LayoutState& state, const LayoutActions& actions,
-                const Viewport& viewport, float scale);
+void drawLayout(Session& session, LayoutState& state, Preferences& preferences,
+                const LayoutActions& actions, const Viewport& viewport, float scale);
 
 } // namespace celadon::ui

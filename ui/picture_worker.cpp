@@ -56,6 +56,7 @@ struct PictureWorker::Renderers {
     std::vector<std::shared_ptr<subedit::MaterialMap>> materials;
     std::shared_ptr<GpuScene> scene;
     std::list<Ready> ready; ///< latest used first
+    float knownLog = 0.0f;  ///< largest ln P of all materials, or more
     std::unique_ptr<ToneMapPass> toneMap;
     std::unique_ptr<ViewModePass> viewMode;
 
@@ -75,6 +76,10 @@ struct PictureWorker::Renderers {
     }
 
     void makeScene() {
+        knownLog = subedit::kLogProfileFloor;
+        for (const auto& material : materials) {
+            knownLog = std::max(knownLog, *std::ranges::max_element(material->logProfile));
+        }
         scene = std::make_shared<GpuScene>(*world, frameSettings(Quality::Default));
         toneMap = std::make_unique<ToneMapPass>(scene->shaders);
         viewMode = std::make_unique<ViewModePass>(scene->shaders, scene->materials.count());
@@ -82,12 +87,16 @@ struct PictureWorker::Renderers {
 
     void apply(const std::deque<MaterialPatch>& patches) {
         bool isWhole = false;
+        float largestLog = knownLog;
         for (const MaterialPatch& patch : patches) {
             subedit::MaterialMap& map = *materials[static_cast<std::size_t>(patch.material)];
             if (patch.whole) {
                 map = *patch.whole;
                 isWhole = true;
                 continue;
+            }
+            for (const float value : patch.logProfile) {
+                largestLog = std::max(largestLog, value);
             }
             const float* from = patch.logProfile.data();
             const auto row = static_cast<std::size_t>(patch.rect.width) *
@@ -102,6 +111,11 @@ struct PictureWorker::Renderers {
         if (isWhole) {
             dropScene();
             makeScene();
+        } else if (largestLog > knownLog) {
+            knownLog = largestLog;
+            for (Ready& entry : ready) {
+                entry.renderer->solver().materialsChanged();
+            }
         }
     }
 

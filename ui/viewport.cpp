@@ -31,8 +31,10 @@ WindowDisplay windowDisplay(const ViewState& view) {
     return display;
 }
 
-Viewport::Viewport(PictureWorker& worker)
-    : mWorker(worker), mFinestRung(static_cast<int>(mLadder.rungs().size()) - 1) {}
+Viewport::Viewport(PictureWorker& worker, double budgetMs)
+    : mWorker(worker),
+      mLadder(budgetMs),
+      mFinestRung(static_cast<int>(mLadder.rungs().size()) - 1) {}
 
 bool Viewport::takePicture(Session& session) {
     if (std::optional<std::string> error = mWorker.takeError()) {
@@ -149,6 +151,23 @@ double Viewport::secondsToNextStep() const {
 bool Viewport::isSettled(const Session& session) const {
     return session.hasWorld() && !mInFlight && mShownRevision == session.pictureRevision() &&
            mShown.windowSizePx == mRect.size && mShown.rungIndex >= mFinestRung;
+}
+
+std::vector<unsigned char> Viewport::readPixels() const {
+    const glm::ivec2 size = mShown.sizePx;
+    std::vector<unsigned char> rgba(mTexture.texelCount() * 4);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTextureImage(mTexture.id(), 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                      static_cast<GLsizei>(rgba.size()), rgba.data());
+    std::vector<unsigned char> rgb;
+    rgb.reserve(mTexture.texelCount() * 3);
+    for (int y = size.y - 1; y >= 0; --y) {
+        for (int x = 0; x < size.x; ++x) {
+            const auto i = static_cast<std::size_t>(y * size.x + x) * 4;
+            rgb.insert(rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
+        }
+    }
+    return rgb;
 }
 
 void Viewport::draw(ImDrawList& list) const {

@@ -29,7 +29,8 @@ struct ViewportRect {
 
 class Viewport {
 public:
-    explicit Viewport(PictureWorker& worker);
+    /// @param budgetMs what a picture may take while something moves
+    Viewport(PictureWorker& worker, double budgetMs);
 
     void setRect(const ViewportRect& rect) { mRect = rect; }
     [[nodiscard]] const ViewportRect& rect() const { return mRect; }
@@ -39,6 +40,9 @@ public:
     /// Seconds until update() has something to do by itself; < 0: nothing.
     [[nodiscard]] double secondsToNextStep() const;
     void draw(ImDrawList& list) const;
+
+    /// The picture on screen: RGB, rows from the top.
+    [[nodiscard]] std::vector<unsigned char> readPixels() const;
 
     /// Refining stops here.
     void setFinestRung(int rung) { mFinestRung = rung; }
