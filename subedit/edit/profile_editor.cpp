@@ -74,11 +74,13 @@ void ProfileEditor::measure() {
     for (int c = 0; c < 3; ++c) {
         mAlbedo[c] = mEnergy.albedo(c, mLayout.spacingMm());
     }
-    mIsMeasured = true;
 }
 
 float ProfileEditor::radiusMm(int channel, float fraction) const {
-    CELADON_ASSERT(mIsMeasured);
+    if (isBlack(channel)) {
+        return 0.0f;
+    }
+    // Energies may have been measured before setAlbedo() scaled them: their ratios are the same.
     const float h = mLayout.spacingMm();
     return h * mEnergy.channelRadius(mValues.data(), channel, fraction, TexelEnergy::blackTotal(h));
 }
@@ -91,7 +93,6 @@ void ProfileEditor::setAlbedo(int channel, float albedo) {
             values[k * 3] = kLogProfileFloor;
         }
         mAlbedo[channel] = 0.0f;
-        mIsMeasured = false;
         return;
     }
     if (isBlack(channel)) {
@@ -113,7 +114,6 @@ void ProfileEditor::setAlbedo(int channel, float albedo) {
         values[k * 3] = std::max(values[k * 3] + shift, kLogProfileFloor);
     }
     mAlbedo[channel] = albedo;
-    mIsMeasured = false;
 }
 
 void ProfileEditor::scaleRange(const glm::vec3& scale) {

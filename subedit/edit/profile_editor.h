@@ -79,7 +79,6 @@ private:
     glm::vec3 mAlbedo{0.0f};
     std::vector<float> mValues;
     std::vector<float> mOther;
-    bool mIsMeasured = false;
 };
 
 } // namespace celadon::subedit
