@@ -70,6 +70,10 @@ public:
         scales[channel] = scale;
         scaleRange(scales);
     }
+    /// The first knot becomes what gives the channel this albedo, all others staying: what a
+    /// profile that falls steeply at first needs after its knots have moved. Where no such knot
+    /// exists, and in any case for the last digits, P is scaled instead.
+    void fitFirstKnot(int channel, float albedo);
     /// `values()` were written to: measures anew.
     void measure();
 
