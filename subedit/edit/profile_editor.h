@@ -64,12 +64,6 @@ public:
     void setAlbedo(int channel, float albedo);
     /// P(r / s) / s^2 in each channel, at the same albedo. Without effect on a black channel.
     void scaleRange(const glm::vec3& scale);
-    /// The same for one channel.
-    void scaleRange(int channel, float scale) {
-        glm::vec3 scales(1.0f);
-        scales[channel] = scale;
-        scaleRange(scales);
-    }
     /// The first knot becomes what gives the channel this albedo, all others staying: what a
     /// profile that falls steeply at first needs after its knots have moved. Where no such knot
     /// exists, and in any case for the last digits, P is scaled instead.
