@@ -24,6 +24,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace celadon::ui {
 
@@ -67,6 +68,7 @@ private:
     void offerRecovery();
     void worldOpened();
     void setActions();
+    void addWindowCommands();
     void savePreferences();
     void takeScreenshot(const std::filesystem::path& file);
     void writeState();
@@ -133,6 +135,32 @@ Editor::Editor(const EditorOptions& options)
         }
     });
     setActions();
+    addWindowCommands();
+}
+
+/// What concerns the window only, so that replays can show every panel.
+void Editor::addWindowCommands() {
+    Dispatcher& commands = mSession.dispatcher();
+    commands.add(
+        "window.tab", "Shows a tab of the side bar: brush, profile, material, light, view",
+        [this](const Arguments& a) { mLayout.tab = parseTab(a.text("name")); }, false);
+    commands.add(
+        "window.show", "Shows or hides panels, help, preferences",
+        [this](const Arguments& a) {
+            mLayout.panelsShown = a.flag("panels", mLayout.panelsShown);
+            mLayout.helpShown = a.flag("help", mLayout.helpShown);
+            mLayout.preferencesShown = a.flag("preferences", mLayout.preferencesShown);
+        },
+        false);
+    commands.add(
+        "window.scroll", "Scrolls the side bar, 0 top to 1 bottom",
+        [this](const Arguments& a) { mLayout.scrollTo = a.numberWithin("to", 0.0, 1.0); }, false);
+    commands.add(
+        "window.dialog", "Opens a dialog: open, save",
+        [this](const Arguments& a) {
+            a.text("name") == "save" ? mActions.saveAs() : mActions.openModel();
+        },
+        false);
 }
 
 bool Editor::isScripted() const {
@@ -608,6 +636,8 @@ void Editor::writeState() {
          {mViewport.rect().origin.x, mViewport.rect().origin.y, mViewport.rect().size.x,
           mViewport.rect().size.y}},
         {"replayed", mReplayer ? mReplayer->executed() : 0},
+        {"pictures", mViewport.pictureCount()},
+        {"pictureMs", std::round(mViewport.shown().timeMs)},
         {"modified", mSession.isModified()},
         {"asking", mQuestion.isOpen() || mFiles.isOpen()},
         {"undo", mSession.activeDocument() != nullptr && mSession.activeDocument()->canUndo()},

@@ -119,13 +119,14 @@ struct PictureWorker::Renderers {
         }
     }
 
-    FrameRenderer& rendererFor(const PictureRequest& request) {
+    FrameRenderer& rendererFor(const PictureRequest& request, bool& isNew) {
         const FrameSettings settings = settingsOf(request);
         const auto found = std::find_if(ready.begin(), ready.end(), [&](const Ready& entry) {
             return entry.sizePx == settings.size && entry.quality == request.rung.quality &&
                    entry.samples == request.rung.samples && entry.specular == request.specular;
         });
-        if (found != ready.end()) {
+        isNew = found == ready.end();
+        if (!isNew) {
             ready.splice(ready.begin(), ready, found);
             return *ready.front().renderer;
         }
@@ -238,11 +239,10 @@ void PictureWorker::run() {
 }
 
 void PictureWorker::serve(Renderers& renderers, const PictureRequest& request) {
-    const auto start = std::chrono::steady_clock::now();
-    FrameRenderer& renderer = renderers.rendererFor(request);
+    Picture picture;
+    FrameRenderer& renderer = renderers.rendererFor(request, picture.isFirst);
     const auto begin = std::chrono::steady_clock::now();
     const gl::Texture* radiance = renderer.draw(request.camera, request.lights, &mInterrupt);
-    Picture picture;
     picture.stages = renderer.takeTimes();
     if (radiance == nullptr) {
         return;
@@ -264,8 +264,6 @@ void PictureWorker::serve(Renderers& renderers, const PictureRequest& request) {
     glGetTextureImage(shown.id(), 0, GL_RGBA, GL_UNSIGNED_BYTE,
                       static_cast<GLsizei>(picture.rgba.size()), picture.rgba.data());
     const auto end = std::chrono::steady_clock::now();
-    // The first frame of a new renderer compiles shaders: that says nothing about the next one.
-    static_cast<void>(start);
     picture.timeMs = std::chrono::duration<double, std::milli>(end - begin).count();
     const std::lock_guard lock(mMutex);
     mPicture = std::move(picture);

@@ -46,7 +46,8 @@ struct Picture {
     glm::ivec2 windowSizePx{0};
     glm::ivec2 sizePx{0};
     std::vector<std::uint8_t> rgba; ///< rows from the bottom
-    double timeMs = 0.0;            ///< from request to picture
+    double timeMs = 0.0;
+    bool isFirst = false; ///< of its size and quality: shaders were compiled meanwhile
     StageMilliseconds stages;
 };
 

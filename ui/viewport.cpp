@@ -49,7 +49,10 @@ bool Viewport::takePicture(Session& session) {
         }
         return false;
     }
-    mLadder.measured(picture->rungIndex, picture->windowSizePx, picture->timeMs);
+    if (!picture->isFirst) {
+        mLadder.measured(picture->rungIndex, picture->windowSizePx, picture->timeMs);
+    }
+    ++mPictureCount;
     if (mInFlight && mInFlight->revision == picture->revision &&
         mInFlight->rung == picture->rungIndex) {
         mInFlight.reset();
