@@ -84,4 +84,9 @@ CLI::Option* addPositional(CLI::App& app, const std::string& name, const std::st
     return app.add_option(name, text, wrap(help))->option_text(" ");
 }
 
+CLI::Option* addPositionals(CLI::App& app, const std::string& name, const std::string& help,
+                            std::vector<std::string>& texts) {
+    return app.add_option(name, texts, wrap(help))->option_text(" ...");
+}
+
 } // namespace celadon::app

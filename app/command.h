@@ -44,4 +44,8 @@ CLI::Option* addFlag(CLI::App& app, const std::string& name, const std::string& 
 CLI::Option* addPositional(CLI::App& app, const std::string& name, const std::string& help,
                            std::string& text);
 
+/// Any number of positionals.
+CLI::Option* addPositionals(CLI::App& app, const std::string& name, const std::string& help,
+                            std::vector<std::string>& texts);
+
 } // namespace celadon::app

@@ -4,7 +4,8 @@
 
 namespace celadon::app {
 
-/// `celadon profile make|table`: scattering profiles and the tables computed from them.
+/// `celadon profile make|fit|table|plot|lut|list`: scattering profiles and what is computed from
+/// them.
 [[nodiscard]] Command addProfileCommand(CLI::App& root);
 
 } // namespace celadon::app

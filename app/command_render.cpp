@@ -11,6 +11,7 @@
 #include "renderer/scene/camera.h"
 #include "renderer/splatting/splatting_solver.h"
 #include "subedit/errors.h"
+#include "subedit/map/range_table_file.h"
 
 #include <CLI/CLI.hpp>
 
@@ -85,6 +86,10 @@ FrameSettings frameSettings(const RenderOptions& options) {
     }
     splatting.alpha = options.alpha.value_or(splatting.alpha);
     splatting.epsilon = options.epsilon.value_or(splatting.epsilon);
+    if (options.table) {
+        const auto table = subedit::readRangeTable(*options.table);
+        splatting.rangeTable.assign(table.values().begin(), table.values().end());
+    }
     splatting.discontinuity = options.discontinuity.value_or(splatting.discontinuity);
     splatting.energy = options.energy.value_or(splatting.energy);
     splatting.adaptive = options.adaptive;

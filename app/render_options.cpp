@@ -175,6 +175,11 @@ void addMethod(CLI::App& app, RenderOptions& o) {
     addOption(app, "--epsilon",
               {group, "E", "Error that a coarser ring may make; default 0.01 (paper: 0.001)"},
               takeNumber(o.epsilon, {0.0, 1.0, true}));
+    addOption(app, "--table",
+              {group, "FILE",
+               "Minimal rendering radii from a file of 'celadon profile table' (.csv or .exr); "
+               "default: computed from each material"},
+              takeText(o.table));
     addOption(app, "--discontinuity",
               {group, "Z", "Depth step within a sample, bounding sphere radii; default 0.03"},
               takeNumber(o.discontinuity, {0.0, 1e6, true}));
@@ -272,6 +277,8 @@ void validateRenderOptions(const RenderOptions& o) {
             "choose an output that ends in .exr");
     require(!o.stats || *o.stats != o.output, "--stats", "is the same file as the output",
             "choose another name");
+    require(!(o.table && o.epsilon), "--epsilon", "does not go with --table",
+            "the table was made for its own");
     validateMotion(o);
     validateView(o);
 }

@@ -75,7 +75,8 @@ struct RenderOptions {
     std::optional<int> irradianceSize;
     std::optional<double> alpha;
     std::optional<double> epsilon;
-    std::optional<double> discontinuity; ///< z_0 in bounding sphere radii
+    std::optional<std::filesystem::path> table; ///< of minimal radii, instead of the materials' own
+    std::optional<double> discontinuity;        ///< z_0 in bounding sphere radii
     std::optional<double> energy;
     bool adaptive = true;
     bool multiresolution = true;

@@ -46,7 +46,7 @@ GpuScene::GpuScene(const World& theWorld, const FrameSettings& settings)
     : world(theWorld),
       gpuWorld(theWorld),
       materials(theWorld.materials, settings.splatting.energy, settings.splatting.epsilon,
-                settings.exitFresnel) {}
+                settings.exitFresnel, settings.splatting.rangeTable) {}
 
 struct FrameRenderer::Passes {
     Passes(const gl::Context& glContext, std::shared_ptr<const GpuScene> theScene,

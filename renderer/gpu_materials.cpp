@@ -51,7 +51,8 @@ void checkSize(const subedit::MaterialMap& map) {
 } // namespace
 
 GpuMaterials::GpuMaterials(std::span<const MaterialPointer> materials, double energy,
-                           double epsilon, ExitFresnel exitFresnel)
+                           double epsilon, ExitFresnel exitFresnel,
+                           std::span<const float> rangeTable)
     : mMapSampler("material map", gl::Filter::Linear, gl::Wrap::Repeat),
       mTableSampler("range table", gl::Filter::Linear),
       mEnergy(energy) {
@@ -68,7 +69,10 @@ GpuMaterials::GpuMaterials(std::span<const MaterialPointer> materials, double en
     for (const MaterialPointer& material : materials) {
         const subedit::MaterialMap& map = *material;
         checkSize(map);
-        const MaterialTables made = makeMaterialTables(map, energy, epsilon);
+        MaterialTables made = makeMaterialTables(map, energy, epsilon);
+        if (!rangeTable.empty()) {
+            made.rangeTable.assign(rangeTable.begin(), rangeTable.end());
+        }
         const glm::ivec2 size(map.width, map.height);
         const glm::ivec3 boxSize(size, map.knots());
         gl::Texture logProfile = gl::Texture::make3d("ln P of " + map.name, GL_RGBA32F, boxSize);

@@ -18,9 +18,10 @@ inline constexpr int kMaxMaterials = 4; ///< as material.glsl unrolls
 class GpuMaterials {
 public:
     /// @param energy, epsilon as makeMaterialTables
+    /// @param rangeTable instead of the materials' own, unless empty
     /// @throws InputError for more than kMaxMaterials, or a map beyond the driver's texture sizes
     GpuMaterials(std::span<const MaterialPointer> materials, double energy, double epsilon,
-                 ExitFresnel exitFresnel);
+                 ExitFresnel exitFresnel, std::span<const float> rangeTable = {});
 
     /// Texels of a rectangle have changed. Neither size nor layout of the map may have; the range
     /// table and the means stay as they were made.

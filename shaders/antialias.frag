@@ -23,9 +23,12 @@ void main() {
     float width = pixelWidthMm(position.w);
     // The sample lies at pixel center + jitter; bilinear among centers, weighted by sameness.
     vec4 sum = vec4(0.0);
+    ivec2 first = ivec2(floor(jitterAndWeight.xy));
     for (int reach = 1; reach <= 3 && sum.a <= 1e-12; ++reach) {
-        for (int y = -reach; y <= reach; ++y) {
-            for (int x = -reach; x <= reach; ++x) {
+        ivec2 low = reach == 1 ? first : ivec2(-reach);
+        ivec2 high = reach == 1 ? first + 1 : ivec2(reach);
+        for (int y = low.y; y <= high.y; ++y) {
+            for (int x = low.x; x <= high.x; ++x) {
                 ivec2 t = pixel + ivec2(x, y);
                 if (any(lessThan(t, ivec2(0))) || any(greaterThanEqual(t, size))) {
                     continue;

@@ -19,6 +19,10 @@ void validateMedium(const Medium& medium) {
         throw UsageError("index of refraction", fmt::format("{} is not in [0.5, 4]", medium.eta),
                          "water is 1.33, most solids 1.3 to 1.6");
     }
+    if (!(medium.anisotropy > -1.0 && medium.anisotropy < 1.0)) {
+        throw UsageError("anisotropy g", fmt::format("{} is not in (-1, 1)", medium.anisotropy),
+                         "0 scatters evenly, skin has some 0.9");
+    }
     for (int channel = 0; channel < 3; ++channel) {
         const double absorption = medium.absorption[channel];
         const double scattering = medium.reducedScattering[channel];

@@ -11,6 +11,9 @@ struct Medium {
     glm::dvec3 absorption{0.0};        ///< sigma_a, 1/mm, >= 0
     glm::dvec3 reducedScattering{1.0}; ///< sigma_s' = sigma_s (1 - g), 1/mm, > 0
     double eta = 1.3;                  ///< relative index of refraction, > 0
+    /// Mean cosine of scattering (Henyey, Greenstein 1941), in (-1, 1). Diffusion models know only
+    /// sigma_s'; the random walk scatters by sigma_s = sigma_s' / (1 - g).
+    double anisotropy = 0.0;
 
     /// sigma_t' = sigma_a + sigma_s', 1/mm
     [[nodiscard]] glm::dvec3 reducedExtinction() const { return absorption + reducedScattering; }

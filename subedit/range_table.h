@@ -19,6 +19,11 @@ public:
     /// @param epsilon error allowed in the energy between any radius >= R(T) and 1, of 1 in all
     [[nodiscard]] static RangeTable build(const MeanProfile& profile, double epsilon);
 
+    /// From a table made before. @param T > 0, rising; @param radius R(T) in [0, 1], as many, >= 1
+    /// Interpolated over log2 T; beyond the samples, the first and the last.
+    [[nodiscard]] static RangeTable fromSamples(std::span<const double> T,
+                                                std::span<const double> radius);
+
     /// R(T) in [0, 1], interpolated over log2 T; 1 for T <= 1, the last entry beyond 4096.
     [[nodiscard]] float minimalRadius(float pixelsPerRadius) const;
 

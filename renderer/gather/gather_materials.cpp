@@ -12,7 +12,7 @@ namespace celadon {
 namespace {
 
 constexpr float kLargestCode = 65535.0f;
-constexpr float kOneLogMore = 1.0f; ///< room above the largest ln P: a dab rarely needs a new scale
+constexpr float kRoomAbove = 3.0f; ///< of ln P above the largest: paint stays within the codes
 
 CELADON_MULTIVERSION
 void quantize(const float* logP, std::size_t count, float offset, float perStep,
@@ -62,7 +62,7 @@ void GatherMaterials::update() {
     mCommon.perMm = static_cast<float>(mCommon.segments) / mCommon.rangeMm;
     mLargestProfile = std::max(mLargestProfile, static_cast<std::size_t>(mCommon.segments + 1) * 3);
     mScale.offset = subedit::kLogProfileFloor;
-    mScale.step = (largest + kOneLogMore - subedit::kLogProfileFloor) / kLargestCode;
+    mScale.step = (largest + kRoomAbove - subedit::kLogProfileFloor) / kLargestCode;
     const float halfLog2e = 0.5f * std::numbers::log2e_v<float>;
     mScale.exponentOffset = 2.0f * halfLog2e * mScale.offset;
     mScale.exponentStep = halfLog2e * mScale.step;

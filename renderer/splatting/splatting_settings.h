@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 /// Options of the splatting solver (DESIGN sections 3 and 5), with the defaults of the command
 /// line.
 namespace celadon {
@@ -25,6 +27,8 @@ struct SplattingSettings {
     int splattingLevels = 5;     ///< 1: full resolution only
     double alpha = 15.0;         ///< eq. 11
     double epsilon = 0.01;       ///< eq. 14
+    /// Rbar over log2 T as MaterialTables has it, for all materials; empty: computed from each.
+    std::vector<float> rangeTable{};
     double discontinuity = 0.03; ///< z_0 in bounding sphere radii, eq. 10
     double energy = 0.99;        ///< R_cut holds this fraction; 1: R_cut = r_s
     bool adaptive = true;        ///< off: every lit level-0 texel is a sample

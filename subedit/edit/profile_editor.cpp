@@ -116,19 +116,30 @@ void ProfileEditor::setAlbedo(int channel, float albedo) {
     mIsMeasured = false;
 }
 
-void ProfileEditor::scaleRange(int channel, float scale) {
-    if (scale == 1.0f || isBlack(channel)) {
+void ProfileEditor::scaleRange(const glm::vec3& scale) {
+    const glm::vec3 albedo = mAlbedo;
+    bool isChanged = false;
+    for (int c = 0; c < 3; ++c) {
+        if (scale[c] == 1.0f || isBlack(c)) {
+            continue;
+        }
+        isChanged = true;
+        resampleChannel(mValues.data() + c, mLayout.segments, mLayout.spacingMm(), scale[c],
+                        mOther.data() + c, mLayout.segments, mLayout.spacingMm());
+        for (int k = 0; k < mLayout.knots(); ++k) {
+            const auto i = static_cast<std::size_t>(k * 3 + c);
+            mValues[i] = mOther[i];
+        }
+    }
+    if (!isChanged) {
         return;
     }
-    const float albedo = mAlbedo[channel];
-    resampleChannel(mValues.data() + channel, mLayout.segments, mLayout.spacingMm(), scale,
-                    mOther.data() + channel, mLayout.segments, mLayout.spacingMm());
-    for (int k = 0; k < mLayout.knots(); ++k) {
-        const auto i = static_cast<std::size_t>(k * 3 + channel);
-        mValues[i] = mOther[i];
-    }
     measure();
-    setAlbedo(channel, albedo);
+    for (int c = 0; c < 3; ++c) {
+        if (mAlbedo[c] != albedo[c] && !isBlack(c)) {
+            setAlbedo(c, albedo[c]);
+        }
+    }
 }
 
 } // namespace celadon::subedit

@@ -62,8 +62,8 @@ public:
     /// Scales P so that a channel has this albedo. A black channel first takes its shape from the
     /// brightest other one, or an exponential if there is none.
     void setAlbedo(int channel, float albedo);
-    /// P(r / s) / s^2, at the same albedo. Without effect on a black channel.
-    void scaleRange(int channel, float scale);
+    /// P(r / s) / s^2 in each channel, at the same albedo. Without effect on a black channel.
+    void scaleRange(const glm::vec3& scale);
     /// `values()` were written to: measures anew.
     void measure();
 

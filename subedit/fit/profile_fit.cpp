@@ -38,7 +38,8 @@ std::vector<Sample> sampleCurve(const RadialCurve& curve, int segments, double h
 }
 
 /// Minimizes the weighted squares of sum_k knot_k hat_k(r) - ln P(r): a tridiagonal system.
-void solveLeastSquares(const std::vector<Sample>& samples, int segments, double* knots) {
+/// @param first segment that is looked at; knots before it get the value of its start
+void solveLeastSquares(const std::vector<Sample>& samples, int segments, int first, double* knots) {
     const auto count = static_cast<std::size_t>(segments) + 1;
     std::vector<double> diagonal(count, 0.0);
     std::vector<double> upper(count, 0.0);
@@ -47,7 +48,8 @@ void solveLeastSquares(const std::vector<Sample>& samples, int segments, double*
     for (const Sample& sample : samples) {
         largest = std::max(largest, sample.weight);
     }
-    for (std::size_t i = 0; i < samples.size(); ++i) {
+    for (std::size_t i = static_cast<std::size_t>(first) * kSamplesPerSegment; i < samples.size();
+         ++i) {
         const Sample& sample = samples[i];
         const std::size_t k = i / kSamplesPerSegment;
         // Far out, where next to nothing is left, the shape still follows the curve.
@@ -60,15 +62,17 @@ void solveLeastSquares(const std::vector<Sample>& samples, int segments, double*
         right[k] += weight * a * sample.logP;
         right[k + 1] += weight * b * sample.logP;
     }
-    for (std::size_t k = 1; k < count; ++k) {
+    const auto start = static_cast<std::size_t>(first);
+    for (std::size_t k = start + 1; k < count; ++k) {
         const double factor = upper[k - 1] / diagonal[k - 1];
         diagonal[k] -= factor * upper[k - 1];
         right[k] -= factor * right[k - 1];
     }
     knots[count - 1] = right[count - 1] / diagonal[count - 1];
-    for (std::size_t k = count - 1; k-- > 0;) {
+    for (std::size_t k = count - 1; k-- > start;) {
         knots[k] = (right[k] - upper[k] * knots[k + 1]) / diagonal[k];
     }
+    std::fill_n(knots, start, knots[start]);
 }
 
 /// Least squares ring beside a peak much narrower than a segment: no knot but the first may leave
@@ -149,7 +153,8 @@ double chooseMaxRadiusMm(const RadialCurves& curves, const FitSettings& settings
     return radius > 0.0 ? radius : 1.0;
 }
 
-double fitChannel(const RadialCurve& curve, int segments, double maxRadiusMm, double* logKnots) {
+double fitChannel(const RadialCurve& curve, int segments, double maxRadiusMm, double* logKnots,
+                  PeakFit peak) {
     const double target = curve.total / (2.0 * std::numbers::pi);
     // What the floor itself holds; a curve below it is black.
     const double h = maxRadiusMm / segments;
@@ -158,7 +163,11 @@ double fitChannel(const RadialCurve& curve, int segments, double maxRadiusMm, do
         return 0.0;
     }
     const std::vector<Sample> samples = sampleCurve(curve, segments, h);
-    solveLeastSquares(samples, segments, logKnots);
+    // A peak that is infinite at r = 0 would bend the knots around its segment: the others do
+    // without it, and the first knot follows from the energy.
+    const bool isApart =
+        peak == PeakFit::Apart && segments > 1 && std::isinf(curve.reflectance(0.0));
+    solveLeastSquares(samples, segments, isApart ? 1 : 0, logKnots);
     limitRinging(curve, segments, h, logKnots);
     matchEnergy(logKnots, segments, h, target);
     return rmsLogError(samples, logKnots);
@@ -178,6 +187,66 @@ FittedProfile fitProfile(const RadialCurves& curves, const FitSettings& settings
             fitChannel(curves[channel], settings.segments, maxRadiusMm, channelKnots.data());
         for (std::size_t k = 0; k < knots; ++k) {
             fitted.logProfile[k * 3 + channel] = static_cast<float>(channelKnots[k]);
+        }
+    }
+    return fitted;
+}
+
+namespace {
+
+double rmsLogOutside(const RadialCurve& curve, const FittedProfile& fitted, int channel) {
+    const double h = static_cast<double>(fitted.maxRadiusMm) / fitted.segments;
+    double error = 0.0;
+    double total = 0.0;
+    const std::vector<Sample> samples = sampleCurve(curve, fitted.segments, h);
+    for (std::size_t i = kSamplesPerSegment; i < samples.size(); ++i) {
+        const auto k = static_cast<int>(i / kSamplesPerSegment);
+        const auto knot = [&](int index) {
+            return static_cast<double>(
+                fitted.logProfile[static_cast<std::size_t>(index * 3 + channel)]);
+        };
+        const double stored = knot(k) + (knot(k + 1) - knot(k)) * samples[i].t;
+        error += samples[i].weight * (stored - samples[i].logP) * (stored - samples[i].logP);
+        total += samples[i].weight;
+    }
+    return total > 0.0 ? std::sqrt(error / total) : 0.0;
+}
+
+} // namespace
+
+FitError measureFit(const RadialCurves& curves, const FittedProfile& fitted) {
+    FitError error;
+    error.rmsLog = fitted.rmsLogError;
+    error.albedo = diffuseAlbedo(fitted.view());
+    for (int channel = 0; channel < 3; ++channel) {
+        const RadialCurve& curve = curves[static_cast<std::size_t>(channel)];
+        error.albedo[channel] -= curve.total;
+        if (curve.total <= 0.0) {
+            continue;
+        }
+        error.rmsLogOutside[channel] = rmsLogOutside(curve, fitted, channel);
+        constexpr int kRadii = 128;
+        for (int i = 1; i < kRadii; ++i) {
+            // Denser near the center, where the energy is.
+            const double t = static_cast<double>(i) / kRadii;
+            const double r = static_cast<double>(fitted.maxRadiusMm) * t * t;
+            const double stored = 2.0 * std::numbers::pi * radialEnergy(fitted.view(), r)[channel];
+            error.misplaced[channel] = std::max(
+                error.misplaced[channel], std::abs(stored - curve.energyWithin(r)) / curve.total);
+        }
+    }
+    return error;
+}
+
+FittedProfile fitProfileWithin(const RadialCurves& curves, double tolerance, FitSettings settings) {
+    FittedProfile fitted;
+    for (const int segments : {4, 6, 8, 12, 16, 20, 24, 32, 40, 48, 64, 80, 96, 128}) {
+        settings.segments = segments;
+        fitted = fitProfile(curves, settings);
+        const FitError error = measureFit(curves, fitted);
+        const auto largest = [](const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); };
+        if (largest(error.rmsLogOutside) <= tolerance && largest(error.misplaced) <= tolerance) {
+            break;
         }
     }
     return fitted;

@@ -31,12 +31,39 @@ struct FittedProfile {
 /// @throws never for finite curves; a black curve becomes the floor e^-30
 [[nodiscard]] FittedProfile fitProfile(const RadialCurves& curves, const FitSettings& settings);
 
+/// How far a stored profile is from the curve that it was fitted to.
+struct FitError {
+    glm::dvec3 albedo{0.0}; ///< stored minus the curve's total
+    glm::dvec3 rmsLog{0.0}; ///< of ln P, weighted by energy
+    /// The same without the first segment, on which a peak like 1/r keeps its energy, not its
+    /// shape.
+    glm::dvec3 rmsLogOutside{0.0};
+    /// Part of the energy that lies at another radius than it should: the largest difference of the
+    /// energies within a radius.
+    glm::dvec3 misplaced{0.0};
+};
+
+[[nodiscard]] FitError measureFit(const RadialCurves& curves, const FittedProfile& fitted);
+
+/// The fewest segments, up to 128, with which in every channel the rms error of ln P outside of the
+/// first segment, and the misplaced part of the energy, are at most `tolerance`; 128 if none does.
+/// @param settings its `segments` are not used
+[[nodiscard]] FittedProfile fitProfileWithin(const RadialCurves& curves, double tolerance,
+                                             FitSettings settings = {});
+
 /// r_s that `settings` ask for with these curves, mm.
 [[nodiscard]] double chooseMaxRadiusMm(const RadialCurves& curves, const FitSettings& settings);
+
+/// How a curve that is infinite at r = 0 is fitted; others are the same either way.
+enum class PeakFit {
+    Apart,  ///< the knots but the first look at what lies outside of the first segment only
+    Blended ///< all look at everything, and ring a little beside the peak; of materials from maps
+};
 
 /// The same for one channel.
 /// @param logKnots segments + 1 values are written
 /// @return         rms error of ln P
-double fitChannel(const RadialCurve& curve, int segments, double maxRadiusMm, double* logKnots);
+double fitChannel(const RadialCurve& curve, int segments, double maxRadiusMm, double* logKnots,
+                  PeakFit peak = PeakFit::Apart);
 
 } // namespace celadon::subedit

@@ -1,50 +1,23 @@
 #include "subedit/models/half_space.h"
 
+#include "subedit/models/gauss_legendre.h"
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 namespace celadon::subedit {
 
 namespace {
 
-struct Node {
-    double mu;
-    double weight;
-};
-
-/// Gauss-Legendre nodes on [from, to], appended: Newton on the Legendre recurrence.
-void appendNodes(std::vector<Node>& nodes, double from, double to) {
-    constexpr int kCount = 32;
-    for (int i = 0; i < kCount; ++i) {
-        double x = std::cos(std::numbers::pi * (i + 0.75) / (kCount + 0.5));
-        double derivative = 1.0;
-        for (int iteration = 0; iteration < 20; ++iteration) {
-            double previous = 1.0;
-            double value = x;
-            for (int n = 2; n <= kCount; ++n) {
-                const double next = ((2 * n - 1) * x * value - (n - 1) * previous) / n;
-                previous = value;
-                value = next;
-            }
-            derivative = kCount * (x * value - previous) / (x * x - 1.0);
-            const double step = value / derivative;
-            x -= step;
-            if (std::abs(step) < 1e-15) {
-                break;
-            }
-        }
-        const double weight = 2.0 / ((1.0 - x * x) * derivative * derivative);
-        nodes.push_back({from + (to - from) * 0.5 * (1.0 + x), weight * 0.5 * (to - from)});
-    }
-}
+using Node = QuadratureNode; ///< position: the cosine mu
+constexpr int kNodes = 32;
 
 double inverseH(double mu, double albedo, const std::vector<Node>& nodes,
                 const std::vector<double>& h) {
     double sum = 0.0;
     for (std::size_t j = 0; j < nodes.size(); ++j) {
-        sum += nodes[j].weight * nodes[j].mu * h[j] / (mu + nodes[j].mu);
+        sum += nodes[j].weight * nodes[j].position * h[j] / (mu + nodes[j].position);
     }
     return std::sqrt(1.0 - albedo) + 0.5 * albedo * sum;
 }
@@ -58,7 +31,7 @@ std::vector<double> solveH(double albedo, const std::vector<Node>& nodes) {
         std::vector<double> next(h.size());
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             // The mean of old and new damps the alternation around the solution.
-            next[i] = 0.5 * (h[i] + 1.0 / inverseH(nodes[i].mu, albedo, nodes, h));
+            next[i] = 0.5 * (h[i] + 1.0 / inverseH(nodes[i].position, albedo, nodes, h));
             change = std::max(change, std::abs(next[i] - h[i]));
         }
         h = std::move(next);
@@ -84,7 +57,7 @@ double fresnelReflectance(double cosine, double eta) {
 
 double chandrasekharH(double mu, double albedo) {
     std::vector<Node> nodes;
-    appendNodes(nodes, 0.0, 1.0);
+    appendGaussLegendre(nodes, 0.0, 1.0, kNodes);
     return 1.0 / inverseH(mu, albedo, nodes, solveH(albedo, nodes));
 }
 
@@ -96,9 +69,9 @@ double halfSpaceTotal(double reducedAlbedo, double eta) {
     std::vector<Node> nodes;
     const double critical = eta > 1.0 ? std::sqrt(1.0 - 1.0 / (eta * eta)) : 0.0;
     if (critical > 0.0) {
-        appendNodes(nodes, 0.0, critical);
+        appendGaussLegendre(nodes, 0.0, critical, kNodes);
     }
-    appendNodes(nodes, critical, 1.0);
+    appendGaussLegendre(nodes, critical, 1.0, kNodes);
     const std::vector<double> h = solveH(reducedAlbedo, nodes);
     const double hNormal = 1.0 / inverseH(1.0, reducedAlbedo, nodes, h);
 
@@ -109,8 +82,9 @@ double halfSpaceTotal(double reducedAlbedo, double eta) {
     std::vector<double> rho(count);
     std::vector<double> source(count);
     for (std::size_t i = 0; i < count; ++i) {
-        rho[i] = eta == 1.0 ? 0.0 : fresnelReflectance(nodes[i].mu, 1.0 / eta);
-        source[i] = 0.5 * reducedAlbedo * h[i] * hNormal * nodes[i].mu / (nodes[i].mu + 1.0);
+        rho[i] = eta == 1.0 ? 0.0 : fresnelReflectance(nodes[i].position, 1.0 / eta);
+        source[i] =
+            0.5 * reducedAlbedo * h[i] * hNormal * nodes[i].position / (nodes[i].position + 1.0);
     }
     std::vector<double> u = source;
     for (int iteration = 0; iteration < 2000; ++iteration) {
@@ -119,9 +93,10 @@ double halfSpaceTotal(double reducedAlbedo, double eta) {
         for (std::size_t i = 0; i < count; ++i) {
             double sum = 0.0;
             for (std::size_t j = 0; j < count; ++j) {
-                sum += nodes[j].weight * h[j] * rho[j] * u[j] / (nodes[i].mu + nodes[j].mu);
+                sum += nodes[j].weight * h[j] * rho[j] * u[j] /
+                       (nodes[i].position + nodes[j].position);
             }
-            next[i] += 0.5 * reducedAlbedo * h[i] * nodes[i].mu * sum;
+            next[i] += 0.5 * reducedAlbedo * h[i] * nodes[i].position * sum;
             change = std::max(change, std::abs(next[i] - u[i]));
         }
         u = std::move(next);
@@ -134,6 +109,19 @@ double halfSpaceTotal(double reducedAlbedo, double eta) {
         total += nodes[i].weight * (1.0 - rho[i]) * u[i];
     }
     return total;
+}
+
+double reducedAlbedoFromTotal(double total, double eta) {
+    // The total rises with the albedo, from 0 to 1 (eta fixed); close to 1 it does so by the square
+    // root of 1 - albedo, which is therefore what is bisected.
+    double low = 0.0;
+    double high = 1.0;
+    while (high - low > 1e-10) {
+        const double middle = 0.5 * (low + high);
+        (halfSpaceTotal(1.0 - middle * middle, eta) > total ? low : high) = middle;
+    }
+    const double root = 0.5 * (low + high);
+    return 1.0 - root * root;
 }
 
 glm::dvec3 halfSpaceTotal(const Medium& medium) {

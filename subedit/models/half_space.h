@@ -14,7 +14,10 @@ namespace celadon::subedit {
 /// @param eta           relative index of refraction, > 0
 [[nodiscard]] double halfSpaceTotal(double reducedAlbedo, double eta);
 
-/// The above per channel.
+/// The inverse: alpha' that returns `total` (albedo inversion). @param total in [0, 1]
+[[nodiscard]] double reducedAlbedoFromTotal(double total, double eta);
+
+/// The total per channel.
 [[nodiscard]] glm::dvec3 halfSpaceTotal(const Medium& medium);
 
 /// Unpolarized Fresnel reflectance. @param cosine of the angle of incidence, in [0, 1]

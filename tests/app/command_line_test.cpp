@@ -39,13 +39,14 @@ TEST(CommandLine, WantsACommand) {
     const ProgramResult result = runProgram({});
     EXPECT_EQ(result.exitCode, 2);
     EXPECT_EQ(result.out, "");
-    EXPECT_EQ(result.err,
-              "celadon: command line: no command is given; choose render, profile, material, "
-              "compare, info; see 'celadon --help'\n");
+    EXPECT_THAT(result.err,
+                testing::MatchesRegex("celadon: command line: no command is given; choose "
+                                      "[a-z, ]*render, [a-z, ]+; see 'celadon --help'\n"));
     const ProgramResult nested = runInProcess({"material"});
     EXPECT_EQ(nested.exitCode, 2);
-    EXPECT_EQ(nested.err, "celadon material: no command is given; choose bake, info; "
-                          "see 'celadon material --help'\n");
+    EXPECT_THAT(nested.err,
+                testing::MatchesRegex("celadon material: no command is given; choose bake, "
+                                      "[a-z, ]+; see 'celadon material --help'\n"));
 }
 
 TEST(CommandLine, NamesWhatItDoesNotKnow) {

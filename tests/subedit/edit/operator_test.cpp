@@ -1,5 +1,6 @@
 #include "subedit/edit/apply_operator.h"
 #include "subedit/effective_radius.h"
+#include "subedit/fast_log.h"
 #include "tests/subedit/support/profiles.h"
 
 #include <gtest/gtest.h>
@@ -171,6 +172,16 @@ TEST(Operator, ShapeEditsLeaveAlbedoAndRange) {
     const glm::dvec3 gaussHalf =
         effectiveRadiusMm(gauss.view(), 0.5) / effectiveRadiusMm(gauss.view());
     expectNear(half, gaussHalf, 0.01, "shape");
+}
+
+TEST(Operator, FastLogarithmIsOne) {
+    for (float x = 1e-35f; x < 1e35f; x *= 1.37f) {
+        const double expected = std::log(static_cast<double>(x));
+        ASSERT_NEAR(static_cast<double>(fastLog(x)), expected,
+                    2e-7 * std::max(1.0, std::abs(expected)))
+            << x;
+    }
+    EXPECT_EQ(fastLog(1.0f), 0.0f);
 }
 
 TEST(Operator, ReplacingGivesTheProfileItself) {

@@ -1,0 +1,238 @@
+#include "subedit/integrated_curve.h"
+#include "subedit/models/better_dipole.h"
+#include "subedit/models/dipole.h"
+#include "subedit/models/gauss_legendre.h"
+#include "subedit/models/grosjean.h"
+#include "subedit/models/half_space.h"
+#include "subedit/models/monte_carlo.h"
+#include "subedit/models/photon_beam.h"
+#include "subedit/models/quantized_diffusion.h"
+#include "subedit/models/single_scattering.h"
+#include "subedit/presets.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace celadon::subedit {
+namespace {
+
+using Model = RadialCurves (*)(const Medium&);
+
+constexpr Model kModels[] = {betterDipoleProfile, quantizedDiffusionProfile, photonBeamProfile};
+
+/// Midpoint rule over ln r.
+double integrate(const RadialCurve& curve, double from, double to) {
+    constexpr int kSteps = 4000;
+    const double step = std::log(to / from) / kSteps;
+    double sum = 0.0;
+    for (int i = 0; i < kSteps; ++i) {
+        const double r = from * std::exp((i + 0.5) * step);
+        sum += curve.reflectance(r) * r * r * step;
+    }
+    return 2.0 * std::numbers::pi * sum;
+}
+
+TEST(GaussLegendre, IsExactForPolynomials) {
+    std::vector<QuadratureNode> nodes;
+    appendGaussLegendre(nodes, 1.0, 3.0, 5);
+    double sum = 0.0;
+    for (const QuadratureNode& node : nodes) {
+        sum += node.weight * std::pow(node.position, 9);
+    }
+    EXPECT_NEAR(sum, (std::pow(3.0, 10) - 1.0) / 10.0, 1e-9);
+}
+
+TEST(InternalFresnelMoment, AgreesWithThePublishedFits) {
+    // d'Eon 2012 prints 2 C_1 and 3 C_2 as polynomials in eta; their values at 1.3.
+    EXPECT_NEAR(2.0 * internalFresnelMoment(1.3, 1), 0.445, 2e-3);
+    EXPECT_EQ(internalFresnelMoment(1.0, 1), 0.0);
+    // Reciprocity: light that crosses from within, per solid angle, is that which crosses from
+    // outside over eta^2.
+    const double eta = 1.5;
+    double outside = 0.0;
+    constexpr int kSteps = 4000;
+    for (int i = 0; i < kSteps; ++i) {
+        const double mu = (i + 0.5) / kSteps;
+        outside += 2.0 * mu * (1.0 - fresnelReflectance(mu, eta)) / kSteps;
+    }
+    EXPECT_NEAR((1.0 - 2.0 * internalFresnelMoment(eta, 1)) * eta * eta, outside, 1e-5);
+}
+
+TEST(IntegratedCurve, KnowsClosedForms) {
+    // e^(-r/d) / r: 2 pi d (1 - e^(-r/d)).
+    const RadialCurve curve = integrateCurve([](double r) { return std::exp(-r / 2.0) / r; }, 1.0);
+    EXPECT_NEAR(curve.total, 4.0 * std::numbers::pi, 1e-6);
+    for (const double r : {1e-8, 0.01, 1.0, 7.0, 100.0}) {
+        const double exact = -4.0 * std::numbers::pi * std::expm1(-r / 2.0);
+        EXPECT_NEAR(curve.energyWithin(r) / exact, 1.0, 5e-6) << r;
+    }
+    // A power tail: 1 / (1 + r^2)^(3/2) holds 2 pi.
+    const RadialCurve tail =
+        integrateCurve([](double r) { return std::pow(1.0 + r * r, -1.5); }, 1.0);
+    EXPECT_NEAR(tail.total, 2.0 * std::numbers::pi, 1e-5);
+}
+
+TEST(BeamModels, EnergiesAreIntegralsOfP) {
+    const Medium& marble = findMediumPreset("marble");
+    for (const Model model : kModels) {
+        const RadialCurves curves = model(marble);
+        for (const RadialCurve& curve : curves) {
+            EXPECT_NEAR(integrate(curve, 1e-6, 3.0) / curve.energyWithin(3.0), 1.0, 1e-3);
+            EXPECT_NEAR(integrate(curve, 1e-6, 1000.0) / curve.total, 1.0, 1e-3);
+        }
+    }
+}
+
+TEST(BeamModels, ScalingLengthsByTwoScalesPByAQuarter) {
+    const Medium& skin = findMediumPreset("skin1");
+    Medium scaled = skin;
+    scaled.absorption *= 0.5;
+    scaled.reducedScattering *= 0.5;
+    for (const Model model : kModels) {
+        const RadialCurves one = model(skin);
+        const RadialCurves two = model(scaled);
+        for (const double r : {0.01, 0.1, 1.0, 7.0}) {
+            EXPECT_NEAR(two[0].reflectance(2.0 * r) * 4.0 / one[0].reflectance(r), 1.0, 1e-9);
+        }
+        EXPECT_NEAR(two[1].total / one[1].total, 1.0, 1e-9);
+    }
+}
+
+TEST(BeamModels, MediaThatDoNotAbsorbReturnNearlyAll) {
+    const Medium& spectralon = findMediumPreset("spectralon");
+    for (const Model model : kModels) {
+        const double total = model(spectralon)[0].total;
+        EXPECT_GT(total, 0.9);
+        EXPECT_LT(total, 1.1);
+    }
+    // alpha'^2, both sources and the whole path between them: exactly 1.
+    EXPECT_NEAR(betterDipoleProfile(spectralon)[0].total, 1.0, 1e-9);
+}
+
+TEST(BeamModels, EndMediaStayFinite) {
+    for (const double eta : {0.8, 1.0, 2.5}) {
+        for (const double albedo : {1e-6, 0.5, 1.0}) {
+            const Medium medium = mediumFromAlbedo(glm::dvec3(albedo), {0.01, 1.0, 100.0}, eta);
+            for (const Model model : kModels) {
+                for (const RadialCurve& curve : model(medium)) {
+                    EXPECT_TRUE(std::isfinite(curve.total) && curve.total >= 0.0);
+                    for (const double r : {1e-3, 1.0, 1e3}) {
+                        EXPECT_TRUE(std::isfinite(curve.reflectance(r))) << eta << ' ' << albedo;
+                        EXPECT_GE(curve.reflectance(r), 0.0);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Sources along the beam by plain quadrature over depth: what the Gaussians sum up.
+double beamExitance(const GrosjeanMedium& m, double r) {
+    double sum = 0.0;
+    constexpr int kSteps = 40000;
+    const double end = 30.0 / m.extinction;
+    for (int i = 0; i < kSteps; ++i) {
+        const double s = (i + 0.5) / kSteps;
+        const double t = end * s * s;
+        const double zVirtual = t + 2.0 * m.extrapolationMm;
+        const double dReal = std::hypot(r, t);
+        const double dVirtual = std::hypot(r, zVirtual);
+        const double fluence =
+            (std::exp(-m.sigmaTr * dReal) / dReal - std::exp(-m.sigmaTr * dVirtual) / dVirtual) /
+            m.diffusion;
+        const auto flux = [&](double z, double d) {
+            return z * (1.0 + m.sigmaTr * d) * std::exp(-m.sigmaTr * d) / (d * d * d);
+        };
+        sum += m.extinction * std::exp(-m.extinction * t) *
+               (m.fluenceFactor * fluence +
+                m.irradianceFactor * (flux(t, dReal) + flux(zVirtual, dVirtual))) *
+               2.0 * s * end / kSteps;
+    }
+    return m.alphaPrime * m.alphaPrime * sum / (4.0 * std::numbers::pi);
+}
+
+TEST(QuantizedDiffusion, GaussiansSumToTheBeam) {
+    const Medium& skin = findMediumPreset("skin1");
+    const RadialCurves curves = quantizedDiffusionProfile(skin);
+    for (int channel = 0; channel < 3; ++channel) {
+        const GrosjeanMedium medium(skin.absorption[channel], skin.reducedScattering[channel],
+                                    skin.eta);
+        const SingleScattering single(skin.absorption[channel], skin.reducedScattering[channel],
+                                      skin.eta);
+        for (const double r : {0.05, 0.3, 1.0, 5.0}) {
+            const double expected = beamExitance(medium, r) + single.reflectance(r);
+            EXPECT_NEAR(curves[static_cast<std::size_t>(channel)].reflectance(r) / expected, 1.0,
+                        5e-3)
+                << channel << ' ' << r;
+        }
+    }
+}
+
+TEST(QuantizedDiffusion, ScaledErfcIsContinuous) {
+    EXPECT_NEAR(scaledErfc(0.0), 1.0, 1e-15);
+    EXPECT_NEAR(scaledErfc(20.0 - 1e-9) / scaledErfc(20.0), 1.0, 1e-9);
+    EXPECT_NEAR(scaledErfc(1e6) * 1e6 * std::sqrt(std::numbers::pi), 1.0, 1e-12);
+}
+
+TEST(SingleScattering, TotalIsTheFirstOrderOfTheHalfSpace) {
+    // Index-matched, isotropic, perpendicular: alpha / 2 (1 - ln 2), by hand.
+    const SingleScattering single(0.5, 0.5, 1.0);
+    const RadialCurve curve = integrateCurve([&](double r) { return single.reflectance(r); }, 1.0);
+    EXPECT_NEAR(curve.total, 0.25 * (1.0 - std::numbers::ln2), 1e-5);
+}
+
+/// Root mean square of ln(model / random walk) over rings in [from, to], each weighted by energy.
+double logError(const RadialCurve& model, const RandomWalkResult& walks, int channel, double from,
+                double to) {
+    double sum = 0.0;
+    double total = 0.0;
+    for (std::size_t bin = 0; bin < walks.bins(); ++bin) {
+        const double r = walks.radiusMm(bin);
+        if (r < from || r > to) {
+            continue;
+        }
+        const double weight = walks.channels[static_cast<std::size_t>(channel)].energy[bin];
+        const double ratio = std::log(model.reflectance(r) / walks.reflectance(channel, bin));
+        sum += weight * ratio * ratio;
+        total += weight;
+    }
+    return std::sqrt(sum / total);
+}
+
+TEST(BeamModels, ComeCloserToRandomWalksThanTheDipole) {
+    // alpha' 0.995, 0.95 and 0.8, mean free path 1 mm.
+    const Medium medium = mediumFromAlbedo({0.995, 0.95, 0.8}, glm::dvec3(1.0), 1.4);
+    const RandomWalkResult walks = simulateRandomWalk(medium, {200'000, 5});
+    const RadialCurves dipole = dipoleProfile(medium);
+    const RadialCurves quantized = quantizedDiffusionProfile(medium);
+    const RadialCurves beam = photonBeamProfile(medium);
+    for (int channel = 0; channel < 3; ++channel) {
+        const auto c = static_cast<std::size_t>(channel);
+        // Both papers: near the beam, where the dipole is flat. Further out as well, by less.
+        for (const auto& [from, to] : {std::pair{0.05, 1.0}, std::pair{1.0, 10.0}}) {
+            const double byDipole = logError(dipole[c], walks, channel, from, to);
+            const double byQuantized = logError(quantized[c], walks, channel, from, to);
+            const double byBeam = logError(beam[c], walks, channel, from, to);
+            EXPECT_LT(byQuantized, 0.9 * byDipole) << channel << ' ' << from;
+            EXPECT_LT(byBeam, 0.9 * byDipole) << channel << ' ' << from;
+        }
+        // Habel et al. 2013: their correction mends what quantized diffusion has too much.
+        EXPECT_LT(logError(beam[c], walks, channel, 0.05, 10.0),
+                  logError(quantized[c], walks, channel, 0.05, 10.0));
+        EXPECT_LT(logError(beam[c], walks, channel, 0.05, 10.0), 0.15);
+    }
+}
+
+TEST(HalfSpace, AlbedoInversionInverts) {
+    for (const double eta : {1.0, 1.4}) {
+        for (const double albedo : {0.0, 0.2, 0.9, 0.999}) {
+            EXPECT_NEAR(reducedAlbedoFromTotal(halfSpaceTotal(albedo, eta), eta), albedo, 1e-6);
+        }
+    }
+    EXPECT_NEAR(reducedAlbedoFromTotal(1.0, 1.4), 1.0, 1e-6);
+}
+
+} // namespace
+} // namespace celadon::subedit
