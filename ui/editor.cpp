@@ -67,6 +67,7 @@ private:
                     std::function<void(const std::filesystem::path&)> done);
     void offerRecovery();
     void worldOpened();
+    void watchFiles();
     void setActions();
     void addWindowCommands();
     void savePreferences();
@@ -96,6 +97,8 @@ private:
     std::optional<std::filesystem::path> mLastScreenshot; ///< --screenshot, still to be taken
     bool mIsPlaced = false;
     std::uint64_t mSeenWorld = 0;
+    OpenRequest mWatched; ///< files whose times these are
+    std::vector<std::filesystem::file_time_type> mWatchedTimes;
     bool mShouldClose = false;
     int mFramesToDraw = kSettlingFrames;
     std::string mWrittenState;
@@ -355,10 +358,42 @@ double Editor::secondsToSleep() const {
     if (mOpen.isRunning() && (seconds < 0.0 || seconds > 0.25)) {
         seconds = 0.25; // the status bar counts the seconds
     }
+    constexpr double kWatchSeconds = 0.5;
+    if (mOptions.watch && (seconds < 0.0 || seconds > kWatchSeconds)) {
+        seconds = kWatchSeconds;
+    }
     return seconds;
 }
 
+/// --watch: files that changed on disk are read again, unless the material was painted on.
+void Editor::watchFiles() {
+    if (!mOptions.watch || mOpen.isRunning() || !mSession.hasWorld()) {
+        return;
+    }
+    const OpenRequest& opened = mSession.opened();
+    std::vector<std::filesystem::file_time_type> times;
+    for (const std::string& name : {opened.model, opened.material}) {
+        std::error_code failed;
+        const auto time = std::filesystem::last_write_time(name, failed);
+        times.push_back(failed ? std::filesystem::file_time_type::min() : time);
+    }
+    const bool isSame = opened.model == mWatched.model && opened.material == mWatched.material;
+    if (isSame && times != mWatchedTimes) {
+        if (mSession.isModified()) {
+            mSession.notify(Notice::Kind::Warning,
+                            "A file changed on disk; it is not read again, since the material has "
+                            "changes that are not saved");
+        } else {
+            mOpen.start(opened);
+        }
+        mFramesToDraw = kSettlingFrames;
+    }
+    mWatched = opened;
+    mWatchedTimes = times;
+}
+
 void Editor::poll() {
+    watchFiles();
     if (mOpen.isRunning()) {
         mLayout.activity =
             fmt::format("Opening {} \xe2\x80\xa6 {:.0f} s", mOpen.request().model, mOpen.seconds());

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <list>
+#include <map>
 
 namespace celadon::ui {
 
@@ -59,10 +60,12 @@ struct PictureWorker::Renderers {
     float knownLog = 0.0f;  ///< largest ln P of all materials, or more
     std::unique_ptr<ToneMapPass> toneMap;
     std::unique_ptr<ViewModePass> viewMode;
+    std::map<int, gl::Texture> selections; ///< by material
 
     void setWorld(std::shared_ptr<const World> newWorld,
                   std::vector<std::shared_ptr<subedit::MaterialMap>> newMaterials) {
         dropScene();
+        selections.clear();
         world = std::move(newWorld);
         materials = std::move(newMaterials);
         makeScene();
@@ -73,6 +76,21 @@ struct PictureWorker::Renderers {
         toneMap.reset();
         viewMode.reset();
         scene.reset();
+    }
+
+    void apply(const Selection& selection) {
+        gl::Texture texture = gl::Texture::make2d("selection", GL_R8, selection.size);
+        texture.upload(0, std::span<const std::uint8_t>(selection.weights));
+        selections.insert_or_assign(selection.material, std::move(texture));
+    }
+
+    [[nodiscard]] SelectionOverlay overlayFor(const PictureRequest& request,
+                                              const FrameRenderer& renderer) const {
+        const auto found = selections.find(request.overlayMaterial);
+        return found == selections.end()
+                   ? SelectionOverlay{}
+                   : SelectionOverlay{&renderer.view().surfaces(), &found->second,
+                                      request.overlayMaterial};
     }
 
     void makeScene() {
@@ -160,6 +178,7 @@ void PictureWorker::setWorld(std::shared_ptr<const World> world,
         mNewWorld = std::move(world);
         mNewMaterials = std::move(materials);
         mPatches.clear();
+        mSelections.clear();
         mRequest.reset();
         mPicture.reset();
         mInterrupt = true;
@@ -170,6 +189,11 @@ void PictureWorker::setWorld(std::shared_ptr<const World> world,
 void PictureWorker::patchMaterial(MaterialPatch patch) {
     const std::lock_guard lock(mMutex);
     mPatches.push_back(std::move(patch));
+}
+
+void PictureWorker::setSelection(int material, glm::ivec2 size, std::vector<std::uint8_t> weights) {
+    const std::lock_guard lock(mMutex);
+    mSelections.push_back({material, size, std::move(weights)});
 }
 
 void PictureWorker::request(PictureRequest request, bool giveUp) {
@@ -212,6 +236,7 @@ void PictureWorker::run() {
         std::shared_ptr<const World> newWorld = std::exchange(mNewWorld, nullptr);
         auto newMaterials = std::exchange(mNewMaterials, {});
         const std::deque<MaterialPatch> patches = std::exchange(mPatches, {});
+        const std::deque<Selection> selections = std::exchange(mSelections, {});
         const std::optional<PictureRequest> request = std::exchange(mRequest, std::nullopt);
         lock.unlock();
         try {
@@ -223,6 +248,9 @@ void PictureWorker::run() {
             }
             if (renderers.scene && !patches.empty()) {
                 renderers.apply(patches);
+            }
+            for (const Selection& selection : selections) {
+                renderers.apply(selection);
             }
             if (renderers.scene && request) {
                 serve(renderers, *request);
@@ -253,7 +281,8 @@ void PictureWorker::serve(Renderers& renderers, const PictureRequest& request) {
         display.exposureEv = 0.0f;
         display.toneMap = ToneMap::None;
     }
-    const gl::Texture& shown = renderers.toneMap->apply(*radiance, display);
+    const gl::Texture& shown =
+        renderers.toneMap->apply(*radiance, display, renderers.overlayFor(request, renderer));
     picture.revision = request.revision;
     picture.rungIndex = request.rungIndex;
     picture.windowSizePx = request.windowSizePx;

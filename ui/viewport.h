@@ -72,6 +72,7 @@ private:
     Picture mShown;
     std::uint64_t mShownRevision = 0;
     std::uint64_t mPictureCount = 0;
+    bool mHasSelection = false; ///< part of a material is selected: it is shown
     std::uint64_t mWorldRevision = 0;
     std::uint64_t mSeenRevision = 0;
     std::optional<InFlight> mInFlight;
