@@ -24,6 +24,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace celadon::ui {
 
@@ -66,7 +67,9 @@ private:
                     std::function<void(const std::filesystem::path&)> done);
     void offerRecovery();
     void worldOpened();
+    void watchFiles();
     void setActions();
+    void addWindowCommands();
     void savePreferences();
     void takeScreenshot(const std::filesystem::path& file);
     void writeState();
@@ -94,6 +97,8 @@ private:
     std::optional<std::filesystem::path> mLastScreenshot; ///< --screenshot, still to be taken
     bool mIsPlaced = false;
     std::uint64_t mSeenWorld = 0;
+    OpenRequest mWatched; ///< files whose times these are
+    std::vector<std::filesystem::file_time_type> mWatchedTimes;
     bool mShouldClose = false;
     int mFramesToDraw = kSettlingFrames;
     std::string mWrittenState;
@@ -133,6 +138,32 @@ Editor::Editor(const EditorOptions& options)
         }
     });
     setActions();
+    addWindowCommands();
+}
+
+/// What concerns the window only, so that replays can show every panel.
+void Editor::addWindowCommands() {
+    Dispatcher& commands = mSession.dispatcher();
+    commands.add(
+        "window.tab", "Shows a tab of the side bar: brush, profile, material, light, view",
+        [this](const Arguments& a) { mLayout.tab = parseTab(a.text("name")); }, false);
+    commands.add(
+        "window.show", "Shows or hides panels, help, preferences",
+        [this](const Arguments& a) {
+            mLayout.panelsShown = a.flag("panels", mLayout.panelsShown);
+            mLayout.helpShown = a.flag("help", mLayout.helpShown);
+            mLayout.preferencesShown = a.flag("preferences", mLayout.preferencesShown);
+        },
+        false);
+    commands.add(
+        "window.scroll", "Scrolls the side bar, 0 top to 1 bottom",
+        [this](const Arguments& a) { mLayout.scrollTo = a.numberWithin("to", 0.0, 1.0); }, false);
+    commands.add(
+        "window.dialog", "Opens a dialog: open, save",
+        [this](const Arguments& a) {
+            a.text("name") == "save" ? mActions.saveAs() : mActions.openModel();
+        },
+        false);
 }
 
 bool Editor::isScripted() const {
@@ -327,10 +358,42 @@ double Editor::secondsToSleep() const {
     if (mOpen.isRunning() && (seconds < 0.0 || seconds > 0.25)) {
         seconds = 0.25; // the status bar counts the seconds
     }
+    constexpr double kWatchSeconds = 0.5;
+    if (mOptions.watch && (seconds < 0.0 || seconds > kWatchSeconds)) {
+        seconds = kWatchSeconds;
+    }
     return seconds;
 }
 
+/// --watch: files that changed on disk are read again, unless the material was painted on.
+void Editor::watchFiles() {
+    if (!mOptions.watch || mOpen.isRunning() || !mSession.hasWorld()) {
+        return;
+    }
+    const OpenRequest& opened = mSession.opened();
+    std::vector<std::filesystem::file_time_type> times;
+    for (const std::string& name : {opened.model, opened.material}) {
+        std::error_code failed;
+        const auto time = std::filesystem::last_write_time(name, failed);
+        times.push_back(failed ? std::filesystem::file_time_type::min() : time);
+    }
+    const bool isSame = opened.model == mWatched.model && opened.material == mWatched.material;
+    if (isSame && times != mWatchedTimes) {
+        if (mSession.isModified()) {
+            mSession.notify(Notice::Kind::Warning,
+                            "A file changed on disk; it is not read again, since the material has "
+                            "changes that are not saved");
+        } else {
+            mOpen.start(opened);
+        }
+        mFramesToDraw = kSettlingFrames;
+    }
+    mWatched = opened;
+    mWatchedTimes = times;
+}
+
 void Editor::poll() {
+    watchFiles();
     if (mOpen.isRunning()) {
         mLayout.activity =
             fmt::format("Opening {} \xe2\x80\xa6 {:.0f} s", mOpen.request().model, mOpen.seconds());
@@ -608,6 +671,8 @@ void Editor::writeState() {
          {mViewport.rect().origin.x, mViewport.rect().origin.y, mViewport.rect().size.x,
           mViewport.rect().size.y}},
         {"replayed", mReplayer ? mReplayer->executed() : 0},
+        {"pictures", mViewport.pictureCount()},
+        {"pictureMs", std::round(mViewport.shown().timeMs)},
         {"modified", mSession.isModified()},
         {"asking", mQuestion.isOpen() || mFiles.isOpen()},
         {"undo", mSession.activeDocument() != nullptr && mSession.activeDocument()->canUndo()},

@@ -1,5 +1,6 @@
 #include "ui/layout.h"
 
+#include "subedit/errors.h"
 #include "ui/panels/brush_panel.h"
 #include "ui/panels/help_window.h"
 #include "ui/panels/light_panel.h"
@@ -30,6 +31,17 @@ constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFla
 float menuHeight() {
     return ImGui::GetFrameHeight();
 }
+
+struct Named {
+    Tab tab;
+    const char* label;
+    std::string_view word;
+};
+constexpr std::array<Named, 5> kTabs{{{Tab::Brush, "Brush", "brush"},
+                                      {Tab::Profile, "Profile", "profile"},
+                                      {Tab::Materials, "Material", "material"},
+                                      {Tab::Light, "Light", "light"},
+                                      {Tab::View, "View", "view"}}};
 
 /// Side bar that leaves at least half of a narrow window to the picture.
 float sideBarWidth(float windowWidth, float scale) {
@@ -137,15 +149,6 @@ void drawSideBar(Session& session, LayoutState& state, const LayoutActions& acti
     ImGui::SetNextWindowSize(
         {width, std::max(1.0f, size.y - menuHeight() - kStatusHeight * scale)});
     if (ImGui::Begin("##side", nullptr, kFixed)) {
-        struct Named {
-            Tab tab;
-            const char* label;
-        };
-        constexpr std::array<Named, 5> kTabs{{{Tab::Brush, "Brush"},
-                                              {Tab::Profile, "Profile"},
-                                              {Tab::Materials, "Material"},
-                                              {Tab::Light, "Light"},
-                                              {Tab::View, "View"}}};
         const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
         const float each =
             (ImGui::GetContentRegionAvail().x - gap * (kTabs.size() - 1)) / kTabs.size();
@@ -179,6 +182,10 @@ void drawSideBar(Session& session, LayoutState& state, const LayoutActions& acti
             case Tab::Materials:
                 drawMaterialPanel(session, actions.putOn);
                 break;
+            }
+            if (state.scrollTo) {
+                ImGui::SetScrollY(static_cast<float>(*state.scrollTo) * ImGui::GetScrollMaxY());
+                state.scrollTo.reset();
             }
         }
         ImGui::EndChild();
@@ -267,6 +274,16 @@ void drawNotices(Session& session, const ViewportRect& rect, float scale) {
 }
 
 } // namespace
+
+Tab parseTab(std::string_view word) {
+    for (const Named& named : kTabs) {
+        if (named.word == word) {
+            return named.tab;
+        }
+    }
+    throw UsageError(fmt::format("tab '{}'", word), "there is no such tab",
+                     "choose brush, profile, material, light or view");
+}
 
 ViewportRect viewportRect(glm::ivec2 windowPx, const LayoutState& state, float scale) {
     ViewportRect rect;

@@ -5,12 +5,16 @@
 #include "ui/viewport.h"
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 
 /// The frame around the viewport: menu bar, side bar with its tabs, status bar, notices.
 namespace celadon::ui {
 
 enum class Tab { Brush, Profile, Materials, Light, View };
+/// @throws UsageError
+[[nodiscard]] Tab parseTab(std::string_view word);
 
 /// What the layout asks the editor for; everything else is a command.
 struct LayoutActions {
@@ -27,7 +31,8 @@ struct LayoutState {
     bool helpShown = false;
     bool preferencesShown = false;
     Tab tab = Tab::Brush;
-    std::string activity; ///< what is being waited for, in the status bar
+    std::optional<double> scrollTo; ///< of the side bar, once
+    std::string activity;           ///< what is being waited for, in the status bar
 };
 
 /// Where the viewport is, given what is shown.

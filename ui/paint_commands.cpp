@@ -125,9 +125,13 @@ void Session::endStroke() {
     subedit::Document& target = *document(material);
     subedit::EditCommand edit = mStroke;
     if (mStrokeSelects) {
+        // While everything is selected, a first stroke chooses.
+        const subedit::WeightMask& now = target.selection();
+        const bool isAll = now == subedit::WeightMask::full(now.width(), now.height());
+        const subedit::SelectMode adding = isAll ? subedit::SelectMode::Replace : paint.selectMode;
         edit = subedit::SelectCommand{
             subedit::SelectStroke{mStroke.brush, mStroke.mirror, mStroke.path},
-            mStrokeInverted ? subedit::SelectMode::Subtract : paint.selectMode};
+            mStrokeInverted ? subedit::SelectMode::Subtract : adding};
     }
     const subedit::EditReport report = mStrokeIsLive ? target.endStroke() : target.execute(edit);
     tell(report);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <list>
+#include <map>
 
 namespace celadon::ui {
 
@@ -59,10 +60,12 @@ struct PictureWorker::Renderers {
     float knownLog = 0.0f;  ///< largest ln P of all materials, or more
     std::unique_ptr<ToneMapPass> toneMap;
     std::unique_ptr<ViewModePass> viewMode;
+    std::map<int, gl::Texture> selections; ///< by material
 
     void setWorld(std::shared_ptr<const World> newWorld,
                   std::vector<std::shared_ptr<subedit::MaterialMap>> newMaterials) {
         dropScene();
+        selections.clear();
         world = std::move(newWorld);
         materials = std::move(newMaterials);
         makeScene();
@@ -73,6 +76,21 @@ struct PictureWorker::Renderers {
         toneMap.reset();
         viewMode.reset();
         scene.reset();
+    }
+
+    void apply(const Selection& selection) {
+        gl::Texture texture = gl::Texture::make2d("selection", GL_R8, selection.size);
+        texture.upload(0, std::span<const std::uint8_t>(selection.weights));
+        selections.insert_or_assign(selection.material, std::move(texture));
+    }
+
+    [[nodiscard]] SelectionOverlay overlayFor(const PictureRequest& request,
+                                              const FrameRenderer& renderer) const {
+        const auto found = selections.find(request.overlayMaterial);
+        return found == selections.end()
+                   ? SelectionOverlay{}
+                   : SelectionOverlay{&renderer.view().surfaces(), &found->second,
+                                      request.overlayMaterial};
     }
 
     void makeScene() {
@@ -119,13 +137,14 @@ struct PictureWorker::Renderers {
         }
     }
 
-    FrameRenderer& rendererFor(const PictureRequest& request) {
+    FrameRenderer& rendererFor(const PictureRequest& request, bool& isNew) {
         const FrameSettings settings = settingsOf(request);
         const auto found = std::find_if(ready.begin(), ready.end(), [&](const Ready& entry) {
             return entry.sizePx == settings.size && entry.quality == request.rung.quality &&
                    entry.samples == request.rung.samples && entry.specular == request.specular;
         });
-        if (found != ready.end()) {
+        isNew = found == ready.end();
+        if (!isNew) {
             ready.splice(ready.begin(), ready, found);
             return *ready.front().renderer;
         }
@@ -159,6 +178,7 @@ void PictureWorker::setWorld(std::shared_ptr<const World> world,
         mNewWorld = std::move(world);
         mNewMaterials = std::move(materials);
         mPatches.clear();
+        mSelections.clear();
         mRequest.reset();
         mPicture.reset();
         mInterrupt = true;
@@ -169,6 +189,11 @@ void PictureWorker::setWorld(std::shared_ptr<const World> world,
 void PictureWorker::patchMaterial(MaterialPatch patch) {
     const std::lock_guard lock(mMutex);
     mPatches.push_back(std::move(patch));
+}
+
+void PictureWorker::setSelection(int material, glm::ivec2 size, std::vector<std::uint8_t> weights) {
+    const std::lock_guard lock(mMutex);
+    mSelections.push_back({material, size, std::move(weights)});
 }
 
 void PictureWorker::request(PictureRequest request, bool giveUp) {
@@ -211,6 +236,7 @@ void PictureWorker::run() {
         std::shared_ptr<const World> newWorld = std::exchange(mNewWorld, nullptr);
         auto newMaterials = std::exchange(mNewMaterials, {});
         const std::deque<MaterialPatch> patches = std::exchange(mPatches, {});
+        const std::deque<Selection> selections = std::exchange(mSelections, {});
         const std::optional<PictureRequest> request = std::exchange(mRequest, std::nullopt);
         lock.unlock();
         try {
@@ -222,6 +248,9 @@ void PictureWorker::run() {
             }
             if (renderers.scene && !patches.empty()) {
                 renderers.apply(patches);
+            }
+            for (const Selection& selection : selections) {
+                renderers.apply(selection);
             }
             if (renderers.scene && request) {
                 serve(renderers, *request);
@@ -238,11 +267,10 @@ void PictureWorker::run() {
 }
 
 void PictureWorker::serve(Renderers& renderers, const PictureRequest& request) {
-    const auto start = std::chrono::steady_clock::now();
-    FrameRenderer& renderer = renderers.rendererFor(request);
+    Picture picture;
+    FrameRenderer& renderer = renderers.rendererFor(request, picture.isFirst);
     const auto begin = std::chrono::steady_clock::now();
     const gl::Texture* radiance = renderer.draw(request.camera, request.lights, &mInterrupt);
-    Picture picture;
     picture.stages = renderer.takeTimes();
     if (radiance == nullptr) {
         return;
@@ -253,7 +281,8 @@ void PictureWorker::serve(Renderers& renderers, const PictureRequest& request) {
         display.exposureEv = 0.0f;
         display.toneMap = ToneMap::None;
     }
-    const gl::Texture& shown = renderers.toneMap->apply(*radiance, display);
+    const gl::Texture& shown =
+        renderers.toneMap->apply(*radiance, display, renderers.overlayFor(request, renderer));
     picture.revision = request.revision;
     picture.rungIndex = request.rungIndex;
     picture.windowSizePx = request.windowSizePx;
@@ -264,8 +293,6 @@ void PictureWorker::serve(Renderers& renderers, const PictureRequest& request) {
     glGetTextureImage(shown.id(), 0, GL_RGBA, GL_UNSIGNED_BYTE,
                       static_cast<GLsizei>(picture.rgba.size()), picture.rgba.data());
     const auto end = std::chrono::steady_clock::now();
-    // The first frame of a new renderer compiles shaders: that says nothing about the next one.
-    static_cast<void>(start);
     picture.timeMs = std::chrono::duration<double, std::milli>(end - begin).count();
     const std::lock_guard lock(mMutex);
     mPicture = std::move(picture);

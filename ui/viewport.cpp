@@ -2,11 +2,18 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace celadon::ui {
 
 namespace {
+
+/// A selection of everything is what edits act on anyway: it is not shown.
+bool isPartial(const std::vector<std::uint8_t>& weights) {
+    return std::any_of(weights.begin(), weights.end(),
+                       [](std::uint8_t weight) { return weight < 255; });
+}
 
 /// A pause this long is rest: finer pictures begin.
 constexpr std::chrono::milliseconds kRest{120};
@@ -49,7 +56,10 @@ bool Viewport::takePicture(Session& session) {
         }
         return false;
     }
-    mLadder.measured(picture->rungIndex, picture->windowSizePx, picture->timeMs);
+    if (!picture->isFirst) {
+        mLadder.measured(picture->rungIndex, picture->windowSizePx, picture->timeMs);
+    }
+    ++mPictureCount;
     if (mInFlight && mInFlight->revision == picture->revision &&
         mInFlight->rung == picture->rungIndex) {
         mInFlight.reset();
@@ -71,6 +81,16 @@ void Viewport::passMaterials(Session& session) {
             continue;
         }
         const subedit::DocumentChanges changes = document->takeChanges();
+        if (changes.selectionChanged) {
+            const subedit::WeightMask& selection = document->selection();
+            std::vector<std::uint8_t> weights(static_cast<std::size_t>(selection.width()) *
+                                              static_cast<std::size_t>(selection.height()));
+            selection.forEachNonZero([&](std::size_t texel, subedit::WeightMask::Weight weight) {
+                weights[texel] = static_cast<std::uint8_t>(weight >> 8);
+            });
+            mHasSelection = isPartial(weights);
+            mWorker.setSelection(i, {selection.width(), selection.height()}, std::move(weights));
+        }
         if (changes.layoutChanged) {
             MaterialPatch patch;
             patch.material = i;
@@ -95,6 +115,7 @@ void Viewport::ask(Session& session, int rung) {
     request.specular = session.view.specular;
     request.display = windowDisplay(session.view);
     request.view = session.view.mode;
+    request.overlayMaterial = mHasSelection ? session.activeMaterial : -1;
     const bool giveUp = mInFlight && mLadder.isSlow(mInFlight->rung, mRect.size);
     mInFlight = InFlight{request.revision, rung, mRect.size};
     mWorker.request(std::move(request), giveUp);
@@ -109,6 +130,7 @@ bool Viewport::update(Session& session) {
         mWorker.setWorld(session.sharedWorld(), session.takeRenderedMaterials());
         mInFlight.reset();
         mShownRevision = 0;
+        mHasSelection = false;
         mLadder.forget();
     }
     const bool redraw = takePicture(session);

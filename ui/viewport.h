@@ -50,6 +50,7 @@ public:
     [[nodiscard]] const QualityLadder& ladder() const { return mLadder; }
     [[nodiscard]] int shownRung() const { return mShownRevision != 0 ? mShown.rungIndex : -1; }
     [[nodiscard]] const Picture& shown() const { return mShown; } ///< without pixels
+    [[nodiscard]] std::uint64_t pictureCount() const { return mPictureCount; }
     [[nodiscard]] bool isWaiting() const { return mInFlight.has_value(); }
 
 private:
@@ -70,6 +71,8 @@ private:
     gl::Texture mTexture;
     Picture mShown;
     std::uint64_t mShownRevision = 0;
+    std::uint64_t mPictureCount = 0;
+    bool mHasSelection = false; ///< part of a material is selected: it is shown
     std::uint64_t mWorldRevision = 0;
     std::uint64_t mSeenRevision = 0;
     std::optional<InFlight> mInFlight;

@@ -46,9 +46,10 @@ void drawSelection(Session& session) {
     };
     constexpr std::array<const char*, 3> kWhole{"All", "None", "Invert"};
     constexpr std::array<const char*, 3> kWholeWords{"all", "none", "invert"};
-    constexpr std::array<const char*, 3> kWholeHelps{"Everything (Ctrl+A)",
-                                                     "Nothing: edits apply everywhere (Ctrl+D)",
-                                                     "What is not selected now (Ctrl+I)"};
+    constexpr std::array<const char*, 3> kWholeHelps{
+        "Everything: edits apply everywhere (Ctrl+A)",
+        "Nothing: edits do nothing until something is selected (Ctrl+D)",
+        "What is not selected now (Ctrl+I)"};
     const int whole = choiceRow("whole", kWhole.data(), kWholeHelps.data(), 3, -1);
     if (whole >= 0) {
         step(kWholeWords[static_cast<std::size_t>(whole)]);
@@ -241,7 +242,7 @@ void drawBrushPanel(Session& session) {
     if (ImGui::Button("Fill", {-1.0f, 0.0f})) {
         session.perform({"edit.fill"});
     }
-    tooltip("Applies the operator to the whole selection, or to everything if nothing is selected");
+    tooltip("Applies the operator to all that is selected");
     drawBrush(session);
     drawSelection(session);
     drawHistory(session);

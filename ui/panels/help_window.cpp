@@ -13,12 +13,12 @@ namespace celadon::ui {
 
 namespace {
 
-constexpr float kKeysWidth = 11.0f; ///< in font sizes
+constexpr float kKeysWidth = 12.5f; ///< in font sizes
 
 void row(const char* keys, const char* help) {
-    const float left = ImGui::GetCursorPosX();
+    const float width = ImGui::CalcTextSize(keys).x;
     ImGui::TextColored(colors::kAccent, "%s", keys);
-    ImGui::SameLine(left + kKeysWidth * ImGui::GetFontSize());
+    ImGui::SameLine(0.0f, std::max(kKeysWidth * ImGui::GetFontSize() - width, 4.0f));
     ImGui::TextUnformatted(help);
 }
 
