@@ -1,5 +1,6 @@
 #include "app/command_info.h"
 
+#include "app/option_takers.h"
 #include "renderer/output/atomic_file.h"
 #include "subedit/errors.h"
 
@@ -11,6 +12,21 @@
 namespace celadon::app {
 namespace {
 
+void checkMeshOutput(const char* option, const std::optional<std::filesystem::path>& file,
+                     bool isSystem) {
+    if (!file) {
+        return;
+    }
+    if (isSystem) {
+        throw UsageError(option, "needs a model");
+    }
+    if (file->extension() != ".obj") {
+        throw UsageError(fmt::format("'{}'", file->string()), "only OBJ files are written",
+                         "choose .obj");
+    }
+    checkWritable(*file);
+}
+
 void checkInfoOptions(const InfoOptions& options) {
     if (options.system && !options.file.empty()) {
         throw UsageError("--system", "does not go with a file", "leave one of them out");
@@ -18,15 +34,17 @@ void checkInfoOptions(const InfoOptions& options) {
     if (!options.system && options.file.empty()) {
         throw UsageError("info", "no file is given", "name a model or a material, or --system");
     }
-    if (options.writeAtlas) {
-        if (options.system) {
-            throw UsageError("--write-atlas", "needs a model");
-        }
-        if (options.writeAtlas->extension() != ".obj") {
-            throw UsageError(fmt::format("'{}'", options.writeAtlas->string()),
-                             "only OBJ files are written", "choose .obj");
-        }
-        checkWritable(*options.writeAtlas);
+    if (options.writeAtlas && options.writeMesh) {
+        throw UsageError("--write-atlas", "does not go with --write-mesh", "leave one of them out");
+    }
+    checkMeshOutput("--write-atlas", options.writeAtlas, options.system);
+    checkMeshOutput("--write-mesh", options.writeMesh, options.system);
+    const MotionRequest& motion = options.motion;
+    if ((motion.animation || motion.timeSeconds || !motion.deformations.empty() ||
+         options.scale.millimetersPerUnit || options.scale.diameterMm) &&
+        !options.writeMesh) {
+        throw UsageError("info", "a pose or a size is only for the mesh that is written",
+                         "add --write-mesh OUT.obj");
     }
 }
 
@@ -44,6 +62,27 @@ Command addInfoCommand(CLI::App& root) {
     addOption(*command, "--write-atlas",
               {group, "OUT.obj", "Writes the model with the texture coordinates used (v up)"},
               [options](const Argument& a) { options->writeAtlas = parsePath(a); });
+    const char* pose = "The posed mesh";
+    addOption(
+        *command, "--write-mesh",
+        {pose, "OUT.obj",
+         "Writes the model as posed, in model units, with the texture coordinates and normals "
+         "used"},
+        [options](const Argument& a) { options->writeMesh = parsePath(a); });
+    addOption(*command, "--animation",
+              {pose, "NAME|N", "Which of the glTF's animations, by name or number from 0"},
+              takeText(options->motion.animation));
+    addOption(*command, "--time", {pose, "S", "The moment of the animation, seconds; default 0"},
+              takeNumber(options->motion.timeSeconds, kNotNegative));
+    addRepeatable(
+        *command, "--deform",
+        {pose, "DEFORM", "As for render, after the animation; repeatable, in order"},
+        [options](const Argument& a) { options->motion.deformations.push_back(parseText(a)); });
+    addOption(*command, "--scale", {pose, "MM", "Millimeters per model unit, as for render"},
+              takeNumber(options->scale.millimetersPerUnit, kPositive));
+    addOption(*command, "--diameter",
+              {pose, "MM", "Millimeters of the bounding sphere's diameter, instead of --scale"},
+              takeNumber(options->scale.diameterMm, kPositive));
     return {command, [options] {
                 checkInfoOptions(*options);
                 options->system ? describeSystem() : describeFile(*options);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/command.h"
+#include "app/render_motion.h"
 
 #include <filesystem>
 #include <optional>
@@ -12,6 +13,9 @@ struct InfoOptions {
     std::string file; ///< a model, a material, or builtin:NAME
     bool system = false;
     std::optional<std::filesystem::path> writeAtlas; ///< the model with its coordinates, as OBJ
+    std::optional<std::filesystem::path> writeMesh;  ///< the posed model, as OBJ
+    MotionRequest motion;                            ///< of --write-mesh
+    WorldScale scale;
 };
 
 /// `celadon info MODEL|MATERIAL|--system`

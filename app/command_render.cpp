@@ -3,8 +3,10 @@
 #include "app/frame_pattern.h"
 #include "app/log.h"
 #include "app/progress.h"
+#include "app/render_motion.h"
 #include "app/render_scene.h"
 #include "renderer/frame_renderer.h"
+#include "renderer/gpu_deformation.h"
 #include "renderer/output/atomic_file.h"
 #include "renderer/output/image_io.h"
 #include "renderer/output/tone_map.h"
@@ -14,9 +16,11 @@
 #include "subedit/map/range_table_file.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace celadon::app {
 namespace {
@@ -38,12 +42,6 @@ void refuseUnbuilt(const RenderOptions& options) {
     }
     if (options.backend == SplatBackendKind::Tiled) {
         refuse("--backend tiled");
-    }
-    if (options.animation || options.timeSeconds) {
-        refuse("--animation");
-    }
-    if (!options.deformations.empty()) {
-        refuse("--deform");
     }
 }
 
@@ -190,6 +188,96 @@ void warnAboutRadius(const World& world, const FrameStats& stats) {
     }
 }
 
+/// What the frames of one world share: its motion, and the renderer that its vertices move in. The
+/// frame's camera and lights are found with the rest pose's bounds, so that a default view stands
+/// still while the object moves.
+class FrameMaker {
+public:
+    FrameMaker(const RenderOptions& options, const FrameSettings& settings,
+               const gl::Context& context, World world)
+        : mOptions(options),
+          mSettings(settings),
+          mContext(context),
+          mWorld(std::move(world)),
+          mRestBounds{mWorld.scatteringSphere, mWorld.sceneSphere},
+          mMotion(
+              makeMotion(mWorld, {options.animation, options.timeSeconds, options.deformations})),
+          mTimer(context) {}
+
+    [[nodiscard]] RenderedFrame make(int number) {
+        const double seconds = mOptions.timeSeconds.value_or(number / mOptions.framesPerSecond);
+        const Pose pose = mMotion.at(seconds);
+        mWorld.scatteringSphere = mRestBounds.scattering;
+        mWorld.sceneSphere = mRestBounds.scene;
+        if (mMotion.moves()) {
+            mWorld.cameras = pose.cameras;
+            mWorld.lights = pose.lights;
+        }
+        const Camera camera = cameraOf(mOptions, mWorld);
+        const std::vector<Light> lights = lightsOf(mOptions, mWorld, camera);
+        double deformationMs = 0.0;
+        try {
+            deformationMs = move(pose);
+        } catch (const InputError& error) {
+            throw InputError(fmt::format("frame {} at {:g} s", number, seconds), error.what());
+        }
+        RenderedFrame frame = mRenderer->render(camera, lights);
+        frame.stats.frame = number;
+        frame.stats.milliseconds.deformation = deformationMs;
+        frame.stats.milliseconds.total += deformationMs;
+        const World& shown = mPosed ? *mPosed : mWorld;
+        explainDarkness(shown, camera, frame, mOptions);
+        if (frame.seesScattering) {
+            warnAboutRadius(shown, frame.stats);
+        }
+        return frame;
+    }
+
+    [[nodiscard]] double millimetersPerUnit() const { return mWorld.millimetersPerUnit; }
+
+private:
+    const RenderOptions& mOptions;
+    const FrameSettings& mSettings;
+    const gl::Context& mContext;
+    World mWorld; ///< vertices at rest; cameras, lights and bounds of the frame
+    GpuDeformation::Bounds mRestBounds;
+    Motion mMotion;
+    gl::StageTimer mTimer;
+    std::optional<World> mPosed; ///< for solvers that trace rays
+    std::shared_ptr<const GpuScene> mScene;
+    std::unique_ptr<FrameRenderer> mRenderer;
+    std::unique_ptr<GpuDeformation> mDeformation;
+
+    /// @return the time of it, ms
+    double move(const Pose& pose) {
+        if (mMotion.moves() && mSettings.solver == SolverKind::SurfaceReference) {
+            mRenderer.reset();
+            mPosed = posedWorld(mWorld, pose);
+            mRenderer = std::make_unique<FrameRenderer>(mContext, *mPosed, mSettings);
+            return 0.0;
+        }
+        if (!mRenderer) {
+            mScene = std::make_shared<const GpuScene>(mWorld, mSettings);
+            mRenderer = std::make_unique<FrameRenderer>(mContext, mScene, mSettings);
+            if (mMotion.moves()) {
+                mDeformation =
+                    std::make_unique<GpuDeformation>(mScene->shaders, mWorld, mScene->gpuWorld);
+                static_cast<void>(mDeformation->apply(pose)); // warms up
+            }
+        }
+        if (!mDeformation) {
+            return 0.0;
+        }
+        {
+            const auto scope = mTimer.measure("deformation");
+            const GpuDeformation::Bounds bounds = mDeformation->apply(pose);
+            mWorld.scatteringSphere = bounds.scattering;
+            mWorld.sceneSphere = bounds.scene;
+        }
+        return mTimer.take().front().timeMs;
+    }
+};
+
 } // namespace
 
 Command addRenderCommand(CLI::App& root) {
@@ -211,30 +299,22 @@ void render(const RenderOptions& options) {
     const bool worldChanges =
         options.sequence || (options.material && hasFrameField(*options.material));
 
-    std::optional<World> world =
-        readWorld(options, frames.first); // bad input is said before GL starts
+    World first = readWorld(options, frames.first); // bad input is said before GL starts
+    static_cast<void>(
+        makeMotion(first, {options.animation, options.timeSeconds, options.deformations}));
     const std::unique_ptr<gl::Context> context = gl::createContext(options.context);
     log::info("context {}: {}", context->description(), context->renderer());
     RenderStats stats = statsHead(options, settings, *context);
-    std::unique_ptr<FrameRenderer> renderer;
+    auto maker = std::make_unique<FrameMaker>(options, settings, *context, std::move(first));
     Progress progress("frames", static_cast<std::size_t>(frames.count()));
     for (int number = frames.first; number <= frames.last; ++number) {
-        if (!renderer || worldChanges) {
-            renderer.reset();
-            if (number > frames.first) {
-                world = readWorld(options, number);
-            }
-            renderer = std::make_unique<FrameRenderer>(*context, *world, settings);
+        if (worldChanges && number > frames.first) {
+            maker.reset();
+            maker = std::make_unique<FrameMaker>(options, settings, *context,
+                                                 readWorld(options, number));
         }
-        const Camera camera = cameraOf(options, *world);
-        const std::vector<Light> lights = lightsOf(options, *world, camera);
-        RenderedFrame frame = renderer->render(camera, lights);
-        frame.stats.frame = number;
-        explainDarkness(*world, camera, frame, options);
-        if (frame.seesScattering) {
-            warnAboutRadius(*world, frame.stats);
-        }
-        stats.millimetersPerUnit = world->millimetersPerUnit;
+        RenderedFrame frame = maker->make(number);
+        stats.millimetersPerUnit = maker->millimetersPerUnit();
         stats.frames.push_back(frame.stats);
         writePicture(options, outputOfFrame(options, number), std::move(frame.image));
         progress.update(static_cast<std::size_t>(number - frames.first + 1));

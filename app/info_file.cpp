@@ -1,10 +1,12 @@
 #include "app/command_info.h"
 #include "app/describe_material.h"
+#include "app/log.h"
 #include "app/render_scene.h"
 #include "renderer/scene/atlas.h"
 #include "renderer/scene/describe_scene.h"
 #include "renderer/scene/write_obj.h"
 #include "subedit/errors.h"
+#include "subedit/map/shipped_materials.h"
 
 #include <fmt/format.h>
 
@@ -98,19 +100,52 @@ void describeModel(const InfoOptions& options) {
     writeObj(scene, *options.writeAtlas);
 }
 
+/// The pose that a render would show, back in model units.
+void writePosedMesh(const InfoOptions& options) {
+    Scene scene = readModel(options.file);
+    const MaterialPointer any = readMaterialArgument(subedit::kDefaultMaterial);
+    std::vector<MaterialPointer> named;
+    for (const SurfaceMaterial& look : scene.materials) {
+        named.push_back(look.subedit ? any : nullptr); // which one does not matter here
+    }
+    const World rest = buildWorld(std::move(scene), nullptr, named, any, options.scale);
+    for (const std::string& warning : rest.warnings) {
+        log::warning("{}", warning);
+    }
+    const Pose pose = makeMotion(rest, options.motion).at(options.motion.timeSeconds.value_or(0.0));
+    World world = posedWorld(rest, pose);
+    std::vector<const Mesh*> meshes;
+    for (WorldMesh& part : world.meshes) {
+        for (glm::vec3& position : part.mesh.positions) {
+            position = glm::vec3(glm::dvec3(position) / world.millimetersPerUnit);
+        }
+        meshes.push_back(&part.mesh);
+    }
+    writeObj(meshes, *options.writeMesh);
+    fmt::print("mm per unit: {:.9g}\n", world.millimetersPerUnit);
+}
+
 } // namespace
 
 void describeFile(const InfoOptions& options) {
     const bool isMaterial = namesMaterial(options.file);
-    if (options.writeAtlas) {
+    const auto checkOutput = [&](const char* option, const auto& output) {
         if (isMaterial) {
-            throw UsageError("--write-atlas",
+            throw UsageError(option,
                              fmt::format("needs a model, and '{}' is a material", options.file));
         }
         std::error_code ignored;
-        if (std::filesystem::equivalent(options.file, *options.writeAtlas, ignored)) {
-            throw UsageError("--write-atlas", "is the model itself", "choose another name");
+        if (std::filesystem::equivalent(options.file, output, ignored)) {
+            throw UsageError(option, "is the model itself", "choose another name");
         }
+    };
+    if (options.writeAtlas) {
+        checkOutput("--write-atlas", *options.writeAtlas);
+    }
+    if (options.writeMesh) {
+        checkOutput("--write-mesh", *options.writeMesh);
+        writePosedMesh(options);
+        return;
     }
     if (isMaterial) {
         describeMaterial(options.file, false);

@@ -14,6 +14,7 @@ struct Vertex {
     glm::vec2 uv;
     glm::vec2 uv1;
 };
+static_assert(sizeof(Vertex) == GpuWorld::kVertexFloats * sizeof(float));
 
 gl::Wrap toGl(Wrap wrap) {
     switch (wrap) {

@@ -23,6 +23,19 @@ public:
     /// of include/surface.glsl, and with `looks` those of splatting_buffer.frag as well.
     void draw(const gl::Program& program, bool looks) const;
 
+    /// The buffers of one mesh, in the order of World::meshes, for what moves them
+    /// (GpuDeformation).
+    struct Geometry {
+        const gl::Buffer& vertices; ///< kVertexFloats each: position in mm, normal, uv, uv1
+        const gl::Buffer& indices;
+        bool scatters;
+    };
+    static constexpr int kVertexFloats = 10;
+    [[nodiscard]] std::size_t meshCount() const { return mMeshes.size(); }
+    [[nodiscard]] Geometry geometry(std::size_t mesh) const {
+        return {mMeshes[mesh].vertices, mMeshes[mesh].indices, mMeshes[mesh].scattering >= 0};
+    }
+
 private:
     struct LookTexture {
         int image = -1;

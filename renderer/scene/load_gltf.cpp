@@ -1,10 +1,13 @@
 #include "renderer/scene/load_gltf.h"
 
+#include "renderer/scene/animation.h"
 #include "renderer/scene/load_bytes.h"
+#include "renderer/scene/load_gltf_animation.h"
 #include "renderer/scene/load_gltf_document.h"
 #include "renderer/scene/load_gltf_material.h"
 #include "renderer/scene/load_gltf_mesh.h"
 #include "renderer/scene/load_gltf_nodes.h"
+#include "renderer/scene/load_gltf_rig.h"
 #include "subedit/errors.h"
 
 #include <algorithm>
@@ -32,16 +35,21 @@ Scene loadGltf(const std::filesystem::path& file, std::string_view content) {
     scene.name = file.stem().string();
     scene.millimetersPerUnit = 1000.0; // glTF is in meters
     scene.warnings = document.warnings;
-    const std::vector<glm::dmat4> world = worldMatrices(document);
+    const auto rig = std::make_shared<Rig>(readRig(document));
+    rig->animations = readAnimations(document, scene.warnings);
+    const RigPose rest = restPose(*rig);
     const std::vector<std::size_t> shown = shownNodes(document);
-    addMeshes(document, world, shown, scene);
+    addMeshes(document, *rig, rest, shown, scene);
     if (scene.meshes.empty()) {
         throw InputError(quoted(file), "its scene shows no triangles",
                          "export a surface, not points, lines or an empty scene");
     }
     addMaterials(document, scene);
     dropUnusedLastMaterial(scene);
-    addCamerasAndLights(document, world, shown, scene);
+    addCamerasAndLights(document, rest.nodes, shown, *rig, scene);
+    if (!rig->animations.empty()) {
+        scene.rig = rig;
+    }
     return scene;
 }
 

@@ -139,6 +139,10 @@ std::vector<glm::mat4> readMat4(const GltfDocument& document, int accessor) {
     return readElements<glm::mat4, float>(document, accessor, 16);
 }
 
+std::vector<float> readNumbers(const GltfDocument& document, int accessor) {
+    return readElements<float, float>(document, accessor, 1);
+}
+
 std::vector<std::uint32_t> readIndices(const GltfDocument& document, int accessor) {
     return readElements<std::uint32_t, std::uint32_t>(document, accessor, 1);
 }

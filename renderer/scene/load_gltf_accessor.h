@@ -16,6 +16,8 @@ namespace celadon::loaders {
 [[nodiscard]] std::vector<glm::vec4> readVec4(const GltfDocument& document, int accessor);
 [[nodiscard]] std::vector<glm::mat4> readMat4(const GltfDocument& document, int accessor);
 
+/// Scalars, integers among them normalized where the accessor says so.
+[[nodiscard]] std::vector<float> readNumbers(const GltfDocument& document, int accessor);
 /// Scalars of an unsigned component type.
 [[nodiscard]] std::vector<std::uint32_t> readIndices(const GltfDocument& document, int accessor);
 /// Four unsigned integers an element, never normalized.

@@ -1,6 +1,7 @@
 #include "renderer/scene/load_gltf_document.h"
 
 #include "renderer/scene/load_bytes.h"
+#include "renderer/scene/load_gltf_animation.h"
 #include "renderer/scene/load_gltf_check.h"
 #include "renderer/scene/load_gltf_container.h"
 #include "renderer/scene/load_json.h"
@@ -129,6 +130,7 @@ void openGltf(const std::filesystem::path& file, std::string_view content, GltfD
     }
     checkGltf(root, sizes);
     listImages(root, document);
+    document.animations = listAnimations(root);
 
     const std::string essential = essentialJson(json);
     json = nullptr;

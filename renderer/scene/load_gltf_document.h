@@ -1,5 +1,7 @@
 #pragma once
 
+#include "renderer/scene/rig.h"
+
 #include <tiny_gltf.h>
 
 #include <cstdint>
@@ -20,12 +22,27 @@ struct GltfImage {
     std::optional<std::size_t> bufferView;
 };
 
+/// A channel of an animation with its sampler; the keys are not read yet.
+struct GltfChannel {
+    std::size_t node = 0;
+    AnimatedValue value = AnimatedValue::Translation;
+    Interpolation interpolation = Interpolation::Linear;
+    std::size_t input = 0; ///< accessors
+    std::size_t output = 0;
+};
+
+struct GltfAnimation {
+    std::string name;
+    std::vector<GltfChannel> channels;
+};
+
 struct GltfDocument {
     std::filesystem::path file;
     tinygltf::Model model;                 ///< without buffers, images and animations
     std::vector<std::string> storage;      ///< bytes that did not come with the file itself
     std::vector<std::string_view> buffers; ///< each exactly byteLength long
     std::vector<GltfImage> images;
+    std::vector<GltfAnimation> animations;
     std::vector<std::string> warnings;
 
     GltfDocument() = default;

@@ -3,14 +3,19 @@
 #include "renderer/scene/load_bytes.h"
 #include "renderer/scene/load_gltf_accessor.h"
 #include "renderer/scene/load_soup.h"
+#include "renderer/scene/pose_mesh.h"
 #include "subedit/errors.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <numeric>
 #include <optional>
+#include <utility>
 
 namespace celadon::loaders {
 
@@ -40,26 +45,14 @@ bool hasTriangles(const tinygltf::Primitive& primitive) {
            primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
 }
 
-/// Where the vertices of one primitive go: one matrix for all, or one each (skins).
-struct Placement {
-    std::vector<glm::dmat4> matrices;
-    [[nodiscard]] const glm::dmat4& of(std::size_t vertex) const {
-        return matrices[matrices.size() == 1 ? 0 : vertex];
-    }
-};
-
-/// Carries normals: the inverse transpose times the determinant, which exists for flat scales too.
-glm::dmat3 cofactors(const glm::dmat3& m) {
-    return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
-}
-
 class PrimitiveReader {
 public:
-    PrimitiveReader(const GltfDocument& document, const std::vector<glm::dmat4>& world,
+    PrimitiveReader(const GltfDocument& document, const Rig& rig, const RigPose& rest,
                     std::size_t node, const tinygltf::Primitive& primitive, std::string place,
                     std::vector<std::string>& warnings)
         : mDocument(document),
-          mWorld(world),
+          mRig(rig),
+          mRest(rest),
           mNode(node),
           mPrimitive(primitive),
           mPlace(std::move(place)),
@@ -68,14 +61,15 @@ public:
     /// Nothing when no triangle is left.
     std::optional<Mesh> read() {
         mPositionAccessor = *attribute(mPrimitive.attributes, "POSITION");
-        mMesh.positions = readVec3(mDocument, mPositionAccessor);
-        checkFinite("POSITION", mPositionAccessor);
+        mBinding.positions = readVec3(mDocument, mPositionAccessor);
+        checkFinite("POSITION", mPositionAccessor, mBinding.positions);
         if (const auto normals = attribute(mPrimitive.attributes, "NORMAL")) {
-            mMesh.normals = readVec3(mDocument, *normals);
+            mBinding.normals = readVec3(mDocument, *normals);
         }
         readUvs("TEXCOORD_0", mMesh.uvs);
         readUvs("TEXCOORD_1", mMesh.uvs1);
-        applyMorphTargets();
+        readMorphTargets();
+        bindToNode();
         const std::vector<Triangle> triangles = readTriangles();
         place(triangles);
         if (mTriangles.empty()) {
@@ -87,6 +81,9 @@ public:
             repairNormals();
             keepUsedVertices();
         }
+        if (isAnimated()) {
+            mMesh.binding = std::make_shared<MeshBinding>(std::move(mBinding));
+        }
         return std::move(mMesh);
     }
 
@@ -94,21 +91,25 @@ public:
 
 private:
     const GltfDocument& mDocument;
-    const std::vector<glm::dmat4>& mWorld;
+    const Rig& mRig;
+    const RigPose& mRest;
     std::size_t mNode;
     const tinygltf::Primitive& mPrimitive;
     std::string mPlace;
     std::vector<std::string>& mWarnings;
     int mPositionAccessor = -1;
+    MeshBinding mBinding;
     Mesh mMesh;
     std::vector<Triangle> mTriangles;
     std::uint64_t mDropped = 0;
 
     [[nodiscard]] const tinygltf::Node& node() const { return mDocument.model.nodes[mNode]; }
 
-    void checkFinite(const char* name, int accessor) const {
-        for (std::size_t i = 0; i < mMesh.positions.size(); ++i) {
-            if (!isFinite(mMesh.positions[i])) {
+    [[nodiscard]] bool isAnimated() const { return !mRig.animations.empty(); }
+
+    void checkFinite(const char* name, int accessor, const std::vector<glm::vec3>& values) const {
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            if (!isFinite(values[i])) {
                 throw InputError(accessorPlace(mDocument, accessor),
                                  fmt::format("{} of vertex {} is not finite", name, i),
                                  "repair the mesh where it was made");
@@ -131,35 +132,116 @@ private:
         }
     }
 
-    void applyMorphTargets() {
-        const std::vector<double>& weights =
-            node().weights.empty()
-                ? mDocument.model.meshes[static_cast<std::size_t>(node().mesh)].weights
-                : node().weights;
-        for (std::size_t t = 0; t < mPrimitive.targets.size() && t < weights.size(); ++t) {
-            if (weights[t] == 0.0) {
-                continue;
-            }
-            const auto add = [&](const char* name, std::vector<glm::vec3>& values) {
-                const auto accessor = attribute(mPrimitive.targets[t], name);
-                if (accessor && !values.empty()) {
-                    const std::vector<glm::vec3> change = readVec3(mDocument, *accessor);
-                    for (std::size_t i = 0; i < values.size(); ++i) {
-                        values[i] += static_cast<float>(weights[t]) * change[i];
+    /// Those that may ever count, without the vertices that they leave in place.
+    void readMorphTargets() {
+        const std::vector<double>& weights = mRest.weights[mNode];
+        for (std::size_t t = 0; t < mPrimitive.targets.size(); ++t) {
+            MorphTarget target;
+            if (isAnimated() || (t < weights.size() && weights[t] != 0.0)) {
+                const auto changes = [&](const char* name) {
+                    const auto accessor = attribute(mPrimitive.targets[t], name);
+                    std::vector<glm::vec3> values(mBinding.positions.size(), glm::vec3(0.0f));
+                    if (accessor) {
+                        values = readVec3(mDocument, *accessor);
+                        checkFinite(name, *accessor, values);
+                    }
+                    return values;
+                };
+                const std::vector<glm::vec3> positions = changes("POSITION");
+                const std::vector<glm::vec3> normals = changes("NORMAL");
+                for (std::size_t i = 0; i < positions.size(); ++i) {
+                    if (positions[i] != glm::vec3(0.0f) || normals[i] != glm::vec3(0.0f)) {
+                        target.vertices.push_back(static_cast<std::uint32_t>(i));
+                        target.positions.push_back(positions[i]);
+                        target.normals.push_back(normals[i]);
                     }
                 }
-                return accessor;
-            };
-            if (const auto accessor = add("POSITION", mMesh.positions)) {
-                checkFinite("POSITION with morph targets", *accessor);
             }
-            (void)add("NORMAL", mMesh.normals);
+            mBinding.targets.push_back(std::move(target));
+        }
+    }
+
+    /// glTF 2.0, 3.7.3.3: a skinned vertex goes where its joints take it; the node's own transform
+    /// does not matter then.
+    void bindToNode() {
+        mBinding.node = static_cast<int>(mNode);
+        if (node().skin >= 0 && attribute(mPrimitive.attributes, "JOINTS_0") &&
+            attribute(mPrimitive.attributes, "WEIGHTS_0")) {
+            mBinding.skin = node().skin;
+            readInfluences(mRig.skins[static_cast<std::size_t>(node().skin)].joints.size());
+        }
+    }
+
+    void readInfluences(std::size_t joints) {
+        const std::size_t vertices = mBinding.positions.size();
+        std::vector<std::pair<int, int>> sets; // accessors of joints and of weights
+        for (;;) {
+            const auto jointAccessor =
+                attribute(mPrimitive.attributes, fmt::format("JOINTS_{}", sets.size()));
+            const auto weightAccessor =
+                attribute(mPrimitive.attributes, fmt::format("WEIGHTS_{}", sets.size()));
+            if (!jointAccessor || !weightAccessor) {
+                break;
+            }
+            sets.emplace_back(*jointAccessor, *weightAccessor);
+        }
+        const std::size_t influences = 4 * sets.size();
+        mBinding.influences = static_cast<int>(influences);
+        mBinding.joints.resize(vertices * influences);
+        for (std::size_t set = 0; set < sets.size(); ++set) {
+            const std::vector<glm::uvec4> indices = readJoints(mDocument, sets[set].first);
+            const std::vector<glm::vec4> weights = readVec4(mDocument, sets[set].second);
+            for (std::size_t i = 0; i < vertices; ++i) {
+                for (int k = 0; k < 4; ++k) {
+                    const float weight = weights[i][k];
+                    if (!(weight > 0.0f) || !std::isfinite(weight)) {
+                        continue;
+                    }
+                    if (indices[i][k] >= joints) {
+                        throw InputError(accessorPlace(mDocument, sets[set].first),
+                                         fmt::format("joint {} of vertex {} is past the {} joints "
+                                                     "of its skin",
+                                                     indices[i][k], i, joints),
+                                         "export the model again");
+                    }
+                    mBinding.joints[i * influences + 4 * set + static_cast<std::size_t>(k)] = {
+                        indices[i][k], weight};
+                }
+            }
+        }
+        normalizeWeights(static_cast<std::uint32_t>(joints));
+    }
+
+    /// glTF 2.0, 3.7.3.3: weights sum to one; where they do not, they are made to. A vertex that no
+    /// joint holds stays with the node.
+    void normalizeWeights(std::uint32_t nodeItself) {
+        constexpr double kRounding = 0.01; // of weights in bytes
+        std::size_t off = 0;
+        const auto influences = static_cast<std::size_t>(mBinding.influences);
+        for (std::size_t i = 0; i < mBinding.positions.size(); ++i) {
+            JointInfluence* const own = &mBinding.joints[i * influences];
+            double total = 0.0;
+            for (std::size_t k = 0; k < influences; ++k) {
+                total += static_cast<double>(own[k].weight);
+            }
+            off += std::abs(total - 1.0) > kRounding ? 1 : 0;
+            for (std::size_t k = 0; k < influences && total > 0.0; ++k) {
+                own[k].weight = static_cast<float>(static_cast<double>(own[k].weight) / total);
+            }
+            if (!(total > 0.0)) {
+                own[0] = {nodeItself, 1.0f};
+            }
+        }
+        if (off > 0) {
+            mWarnings.push_back(fmt::format("{}: the joint weights of {} did not sum to one, and "
+                                            "were scaled to",
+                                            mPlace, counted(off, "vertex")));
         }
     }
 
     std::vector<Triangle> readTriangles() {
         std::vector<std::uint32_t> indices;
-        const std::size_t vertices = mMesh.positions.size();
+        const std::size_t vertices = mBinding.positions.size();
         if (mPrimitive.indices >= 0) {
             indices = readIndices(mDocument, mPrimitive.indices);
             for (std::size_t i = 0; i < indices.size(); ++i) {
@@ -199,103 +281,52 @@ private:
         return triangles;
     }
 
-    /// glTF 2.0, 3.7.3.3: a skinned vertex goes where its joints take it; the node's own transform
-    /// does not matter then.
-    Placement skinned(const tinygltf::Skin& skin) const {
-        std::vector<glm::dmat4> joints;
-        std::vector<glm::mat4> inverseBind;
-        if (skin.inverseBindMatrices >= 0) {
-            inverseBind = readMat4(mDocument, skin.inverseBindMatrices);
-        }
-        for (std::size_t j = 0; j < skin.joints.size(); ++j) {
-            joints.push_back(mWorld[static_cast<std::size_t>(skin.joints[j])]);
-            if (j < inverseBind.size()) {
-                joints[j] = joints[j] * glm::dmat4(inverseBind[j]);
-            }
-        }
-        Placement placement;
-        placement.matrices.assign(mMesh.positions.size(), glm::dmat4(0.0));
-        std::vector<double> total(mMesh.positions.size(), 0.0);
-        for (int set = 0;; ++set) {
-            const auto jointAccessor =
-                attribute(mPrimitive.attributes, fmt::format("JOINTS_{}", set));
-            const auto weightAccessor =
-                attribute(mPrimitive.attributes, fmt::format("WEIGHTS_{}", set));
-            if (!jointAccessor || !weightAccessor) {
-                break;
-            }
-            const std::vector<glm::uvec4> indices = readJoints(mDocument, *jointAccessor);
-            const std::vector<glm::vec4> weights = readVec4(mDocument, *weightAccessor);
-            for (std::size_t i = 0; i < indices.size(); ++i) {
-                for (int k = 0; k < 4; ++k) {
-                    const double weight = weights[i][k];
-                    if (!(weight > 0.0) || !std::isfinite(weight)) {
-                        continue;
-                    }
-                    if (indices[i][k] >= joints.size()) {
-                        throw InputError(accessorPlace(mDocument, *jointAccessor),
-                                         fmt::format("joint {} of vertex {} is past the {} joints "
-                                                     "of its skin",
-                                                     indices[i][k], i, joints.size()),
-                                         "export the model again");
-                    }
-                    placement.matrices[i] += weight * joints[indices[i][k]];
-                    total[i] += weight;
-                }
-            }
-        }
-        for (std::size_t i = 0; i < total.size(); ++i) {
-            placement.matrices[i] =
-                total[i] > 0.0 ? placement.matrices[i] / total[i] : mWorld[mNode];
-        }
-        return placement;
-    }
-
-    /// To world space; keeps the triangles that have an area there.
+    /// To world space; keeps the triangles that have an area there, or may get one.
     void place(const std::vector<Triangle>& triangles) {
-        Placement placement{{mWorld[mNode]}};
-        const bool hasJoints = attribute(mPrimitive.attributes, "JOINTS_0") &&
-                               attribute(mPrimitive.attributes, "WEIGHTS_0");
-        if (node().skin >= 0 && hasJoints) {
-            placement = skinned(mDocument.model.skins[static_cast<std::size_t>(node().skin)]);
-        }
-        std::vector<bool> mirrored(placement.matrices.size());
-        std::vector<glm::dmat3> normalMatrices(placement.matrices.size());
-        for (std::size_t i = 0; i < placement.matrices.size(); ++i) {
-            const glm::dmat3 linear(placement.matrices[i]);
-            mirrored[i] = glm::determinant(linear) < 0.0;
-            normalMatrices[i] = cofactors(linear) * (mirrored[i] ? -1.0 : 1.0);
-        }
-        const auto matrixOf = [&](std::size_t vertex) {
-            return placement.matrices.size() == 1 ? 0 : vertex;
-        };
+        const PosedVertices posed = poseVertices(mBinding, meshPose(mRig, mBinding, mRest, 1.0));
+        mMesh.positions.assign(posed.positions.begin(), posed.positions.end());
+        mMesh.normals.assign(posed.normals.begin(), posed.normals.end());
         for (std::size_t i = 0; i < mMesh.positions.size(); ++i) {
-            mMesh.positions[i] =
-                glm::vec3(placement.of(i) * glm::dvec4(glm::dvec3(mMesh.positions[i]), 1.0));
             if (!isFinite(mMesh.positions[i])) {
                 throw InputError(fmt::format("{}, node {}", quoted(mDocument.file), mNode),
                                  fmt::format("its transform takes vertex {} beyond all numbers", i),
                                  "check the scales of the nodes");
             }
-            if (!mMesh.normals.empty()) {
-                const glm::dvec3 normal =
-                    normalMatrices[matrixOf(i)] * glm::dvec3(mMesh.normals[i]);
-                const double length = glm::length(normal);
-                mMesh.normals[i] = length > 0.0 && std::isfinite(length)
-                                       ? glm::vec3(normal / length)
-                                       : glm::vec3(0.0f);
-            }
+        }
+        if (isAnimated()) {
+            mMesh.bindingVertices.resize(mMesh.positions.size());
+            std::iota(mMesh.bindingVertices.begin(), mMesh.bindingVertices.end(), 0u);
         }
         mTriangles.reserve(triangles.size());
         for (const auto& [a, b, c] : triangles) {
-            const bool turn = mirrored[matrixOf(a)];
+            const bool turn = posed.mirrored[a];
             const Triangle triangle{a, turn ? c : b, turn ? b : c};
-            if (normalOf(triangle) == glm::dvec3(0.0)) {
+            if (normalOf(triangle) == glm::dvec3(0.0) && !mayUnfold(triangle)) {
                 ++mDropped;
             } else {
                 mTriangles.push_back(triangle);
             }
         }
+    }
+
+    /// Whether a triangle of no area at rest may have one in motion.
+    [[nodiscard]] bool mayUnfold(const Triangle& triangle) const {
+        const auto& [a, b, c] = triangle;
+        return isAnimated() && !moveAsOne(a, b) && !moveAsOne(b, c) && !moveAsOne(c, a);
+    }
+
+    /// Whether two vertices are at one place in every pose.
+    [[nodiscard]] bool moveAsOne(std::size_t a, std::size_t b) const {
+        if (a == b) {
+            return true;
+        }
+        if (mBinding.positions[a] != mBinding.positions[b] || !mBinding.targets.empty()) {
+            return false;
+        }
+        const auto influences = static_cast<std::size_t>(mBinding.influences);
+        const auto* const first = mBinding.joints.data();
+        return std::equal(first + a * influences, first + (a + 1) * influences,
+                          first + b * influences);
     }
 
     [[nodiscard]] glm::dvec3 normalOf(const Triangle& triangle) const {
@@ -373,6 +404,7 @@ private:
         pick(mMesh.normals);
         pick(mMesh.uvs);
         pick(mMesh.uvs1);
+        pick(mMesh.bindingVertices);
     }
 };
 
@@ -405,7 +437,7 @@ void checkTotal(const GltfDocument& document, const std::vector<std::size_t>& sh
 
 } // namespace
 
-void addMeshes(const GltfDocument& document, const std::vector<glm::dmat4>& world,
+void addMeshes(const GltfDocument& document, const Rig& rig, const RigPose& rest,
                const std::vector<std::size_t>& shown, Scene& scene) {
     checkTotal(document, shown);
     std::uint64_t skipped = 0;
@@ -427,7 +459,7 @@ void addMeshes(const GltfDocument& document, const std::vector<glm::dmat4>& worl
             }
             const std::string place =
                 fmt::format("{}, mesh {}, primitive {}", quoted(document.file), node.mesh, p);
-            PrimitiveReader reader(document, world, index, primitive, place, scene.warnings);
+            PrimitiveReader reader(document, rig, rest, index, primitive, place, scene.warnings);
             std::optional<Mesh> result = reader.read();
             dropped += reader.droppedTriangles();
             if (result) {

@@ -3,7 +3,6 @@
 #include "renderer/scene/load_bytes.h"
 
 #include <fmt/format.h>
-#include <glm/gtc/quaternion.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,34 +12,6 @@ namespace celadon::loaders {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-
-glm::dmat4 localMatrix(const tinygltf::Node& node) {
-    glm::dmat4 result(1.0);
-    if (node.matrix.size() == 16) {
-        for (int column = 0; column < 4; ++column) {
-            for (int row = 0; row < 4; ++row) {
-                result[column][row] = node.matrix[static_cast<std::size_t>(4 * column + row)];
-            }
-        }
-        return result;
-    }
-    if (node.rotation.size() == 4) {
-        const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1],
-                                  node.rotation[2]); // glTF: x, y, z, w
-        if (glm::length(rotation) > 0.0) {
-            result = glm::mat4_cast(glm::normalize(rotation));
-        }
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-        if (node.scale.size() == 3) {
-            result[axis] *= node.scale[static_cast<std::size_t>(axis)];
-        }
-        if (node.translation.size() == 3) {
-            result[3][axis] = node.translation[static_cast<std::size_t>(axis)];
-        }
-    }
-    return result;
-}
 
 glm::dvec3 unit(const glm::dvec4& v, const glm::dvec3& otherwise) {
     const double length = glm::length(glm::dvec3(v));
@@ -91,34 +62,6 @@ Light makeLight(const tinygltf::Light& source, const glm::dmat4& world) {
 
 } // namespace
 
-std::vector<glm::dmat4> worldMatrices(const GltfDocument& document) {
-    const std::vector<tinygltf::Node>& nodes = document.model.nodes;
-    std::vector<glm::dmat4> world(nodes.size());
-    std::vector<bool> isChild(nodes.size(), false);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        world[i] = localMatrix(nodes[i]);
-        for (const int child : nodes[i].children) {
-            isChild[static_cast<std::size_t>(child)] = true;
-        }
-    }
-    std::vector<std::size_t> open;
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        if (!isChild[i]) {
-            open.push_back(i);
-        }
-    }
-    while (!open.empty()) {
-        const std::size_t node = open.back();
-        open.pop_back();
-        for (const int child : nodes[node].children) {
-            const auto c = static_cast<std::size_t>(child);
-            world[c] = world[node] * world[c];
-            open.push_back(c);
-        }
-    }
-    return world;
-}
-
 std::vector<std::size_t> shownNodes(const GltfDocument& document) {
     const tinygltf::Model& model = document.model;
     std::vector<std::size_t> open;
@@ -155,7 +98,7 @@ std::vector<std::size_t> shownNodes(const GltfDocument& document) {
 }
 
 void addCamerasAndLights(const GltfDocument& document, const std::vector<glm::dmat4>& world,
-                         const std::vector<std::size_t>& shown, Scene& scene) {
+                         const std::vector<std::size_t>& shown, Rig& rig, Scene& scene) {
     const glm::dvec3 center = boundingSphere(scene).center;
     for (const std::size_t index : shown) {
         const tinygltf::Node& node = document.model.nodes[index];
@@ -168,11 +111,13 @@ void addCamerasAndLights(const GltfDocument& document, const std::vector<glm::dm
             continue;
         }
         if (node.camera >= 0) {
+            rig.cameraNodes.push_back(static_cast<int>(index));
             scene.cameras.push_back(
                 makeCamera(document.model.cameras[static_cast<std::size_t>(node.camera)],
                            world[index], center));
         }
         if (hasLight) {
+            rig.lightNodes.push_back(static_cast<int>(index));
             const auto number =
                 static_cast<std::size_t>(light->second.Get("light").GetNumberAsInt());
             scene.lights.push_back(makeLight(document.model.lights[number], world[index]));

@@ -6,14 +6,20 @@
 namespace celadon {
 
 BoundingSphere boundingSphere(const Scene& scene, const std::vector<bool>& include) {
+    std::vector<const Mesh*> meshes;
+    for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+        if (include.empty() || include[m]) {
+            meshes.push_back(&scene.meshes[m]);
+        }
+    }
+    return boundingSphere(meshes);
+}
+
+BoundingSphere boundingSphere(std::span<const Mesh* const> meshes) {
     const auto forEachUsedVertex = [&](auto&& visit) {
-        for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
-            if (!include.empty() && !include[m]) {
-                continue;
-            }
-            const Mesh& mesh = scene.meshes[m];
-            for (const std::uint32_t index : mesh.indices) {
-                visit(glm::dvec3(mesh.positions[index]));
+        for (const Mesh* const mesh : meshes) {
+            for (const std::uint32_t index : mesh->indices) {
+                visit(glm::dvec3(mesh->positions[index]));
             }
         }
     };

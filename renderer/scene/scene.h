@@ -5,7 +5,9 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,9 @@
 /// world space (glTF: after node transforms). No GL here. Loaders and builtins produce it, the
 /// renderer turns it into millimeters on the GPU.
 namespace celadon {
+
+struct MeshBinding; // rig.h
+struct Rig;
 
 /// An 8-bit RGBA picture, top row first.
 struct Image {
@@ -61,6 +66,8 @@ struct Mesh {
     std::vector<glm::vec2> uvs1;        ///< second set, or empty
     std::vector<std::uint32_t> indices; ///< three a triangle, all < positions.size()
     int material = 0;                   ///< index into Scene::materials
+    std::shared_ptr<const MeshBinding> binding; ///< what moves it; null: nothing does
+    std::vector<std::uint32_t> bindingVertices; ///< with a binding: its vertex of each position
     [[nodiscard]] std::size_t triangleCount() const { return indices.size() / 3; }
 };
 
@@ -93,6 +100,7 @@ struct Scene {
     std::vector<Light> lights;
     std::optional<double> millimetersPerUnit; ///< glTF: 1000; files with no unit: unset
     std::vector<std::string> warnings;        ///< one line each, for the user
+    std::shared_ptr<const Rig> rig;           ///< set when the file has animations
 };
 
 struct BoundingSphere {
@@ -104,5 +112,6 @@ struct BoundingSphere {
 /// (DESIGN section 1). `include` selects meshes by index; all when empty.
 [[nodiscard]] BoundingSphere boundingSphere(const Scene& scene,
                                             const std::vector<bool>& include = {});
+[[nodiscard]] BoundingSphere boundingSphere(std::span<const Mesh* const> meshes);
 
 } // namespace celadon

@@ -156,6 +156,7 @@ World buildWorld(Scene scene, const MaterialPointer& override,
     world.cameras = std::move(scene.cameras);
     world.lights = std::move(scene.lights);
     world.warnings = std::move(scene.warnings);
+    world.rig = std::move(scene.rig);
     world.meshes.reserve(scene.meshes.size());
     for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
         CELADON_ASSERT(scene.meshes[m].material >= 0 &&

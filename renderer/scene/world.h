@@ -32,6 +32,7 @@ struct World {
     BoundingSphere scatteringSphere; ///< mm, over scattering meshes; its diameter is R_w
     BoundingSphere sceneSphere;      ///< mm, over everything
     std::vector<std::string> warnings;
+    std::shared_ptr<const Rig> rig; ///< of animations, in model units; null: none
 };
 
 /// How long a model unit is: given, or from the wanted diameter of the scattering meshes' bounding

@@ -1,0 +1,281 @@
+#include "renderer/gpu_deformation.h"
+
+#include "renderer/gl/debug.h"
+#include "subedit/errors.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace celadon {
+
+namespace {
+
+constexpr int kGroup = 64;      ///< local_size_x of every shader here
+constexpr int kMaxGroups = 512; ///< in x; the rest goes to y
+
+/// `include/deformer.glsl`
+struct DeformerEntry {
+    glm::ivec4 kind;
+    glm::vec4 center;
+    glm::vec4 amount;
+};
+
+/// `vertex_bounds.comp`
+struct BoundsEntry {
+    std::uint32_t low[3] = {~0u, ~0u, ~0u};
+    std::uint32_t high[3] = {0, 0, 0};
+    std::uint32_t farthest = 0;
+    std::uint32_t gone = 0;
+};
+
+enum MapFlags { kHasMap = 1, kHasMiters = 2 };
+
+void dispatch(int count) {
+    const int groups = (count + kGroup - 1) / kGroup;
+    const int across = std::min(groups, kMaxGroups);
+    if (groups > 0) {
+        glDispatchCompute(static_cast<GLuint>(across),
+                          static_cast<GLuint>((groups + across - 1) / across), 1);
+    }
+}
+
+/// Position and normal of each vertex, six floats.
+std::vector<float> interleaved(const std::vector<glm::vec3>& positions,
+                               const std::vector<glm::vec3>& normals) {
+    std::vector<float> result;
+    result.reserve(6 * positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const glm::vec3 normal = normals.empty() ? glm::vec3(0.0f) : normals[i];
+        result.insert(result.end(), {positions[i].x, positions[i].y, positions[i].z, normal.x,
+                                     normal.y, normal.z});
+    }
+    return result;
+}
+
+float restored(std::uint32_t ordered) {
+    return std::bit_cast<float>((ordered & 0x80000000u) != 0 ? ordered & 0x7fffffffu : ~ordered);
+}
+
+BoundingSphere sphereOf(const BoundsEntry& entry) {
+    BoundingSphere sphere;
+    for (int k = 0; k < 3; ++k) {
+        sphere.center[k] = 0.5 * (static_cast<double>(restored(entry.low[k])) +
+                                  static_cast<double>(restored(entry.high[k])));
+    }
+    sphere.radius = std::sqrt(static_cast<double>(std::bit_cast<float>(entry.farthest)));
+    return sphere;
+}
+
+DeformerEntry entryOf(const Deformer& deformer, const RestBox& box) {
+    constexpr double kPi = 3.14159265358979323846;
+    const glm::dvec3 center = 0.5 * (box.low + box.high);
+    const double length = box.high[deformer.axis] - box.low[deformer.axis];
+    double rate = deformer.amount;
+    double wave = 0.0;
+    switch (deformer.kind) {
+    case Deformer::Kind::Twist:
+    case Deformer::Kind::Bend:
+        rate *= kPi / 180.0 / length;
+        break;
+    case Deformer::Kind::Taper:
+        rate = (rate - 1.0) / length;
+        break;
+    case Deformer::Kind::Wave:
+        wave = 2.0 * kPi / deformer.wavelengthMm;
+        break;
+    case Deformer::Kind::Inflate:
+        break;
+    }
+    return {glm::ivec4(static_cast<int>(deformer.kind), deformer.axis, 0, 0),
+            glm::vec4(center, length), glm::vec4(rate, wave, box.low[deformer.axis], 0.0)};
+}
+
+} // namespace
+
+GpuDeformation::GpuDeformation(const gl::ShaderLibrary& shaders, const World& rest,
+                               const GpuWorld& target)
+    : mRest(rest),
+      mTarget(target),
+      mMorph("morph", shaders, {"morph.comp"}),
+      mDeform("deform", shaders, {"deform.comp"}),
+      mFlatNormals("flat normals", shaders, {"flat_normals.comp"}),
+      mFlip("flip triangles", shaders, {"flip_triangles.comp"}),
+      mBoundsOf("vertex bounds", shaders, {"vertex_bounds.comp"}),
+      mNothing("deformation: nothing", 64),
+      mBounds("deformation: bounds", 2 * sizeof(BoundsEntry), gl::BufferUse::Update) {
+    for (const WorldMesh& mesh : rest.meshes) {
+        addMesh(mesh);
+    }
+}
+
+void GpuDeformation::addMesh(const WorldMesh& source) {
+    const Mesh& mesh = source.mesh;
+    MovedMesh result;
+    result.vertices = static_cast<int>(mesh.positions.size());
+    result.triangles = static_cast<int>(mesh.triangleCount());
+    const auto named = [&](const char* what) { return std::string(what) + " of " + mesh.name; };
+    std::size_t matrices = 1;
+    if (const MeshBinding* const binding = mesh.binding.get()) {
+        result.isBound = true;
+        result.isFlat = binding->normals.empty();
+        result.bound =
+            gl::Buffer::of(named("binding"), interleaved(binding->positions, binding->normals));
+        result.map = gl::Buffer::of(named("binding vertices"), mesh.bindingVertices);
+        result.influenceCount = binding->influences;
+        if (binding->skin >= 0) {
+            result.influences = gl::Buffer::of(named("influences"), binding->joints);
+            matrices += mRest.rig->skins[static_cast<std::size_t>(binding->skin)].joints.size();
+        }
+        for (const MorphTarget& shape : binding->targets) {
+            Target target;
+            target.count = static_cast<int>(shape.vertices.size());
+            if (target.count > 0) {
+                target.vertices = gl::Buffer::of(named("morph vertices"), shape.vertices);
+                target.changes = gl::Buffer::of(named("morph target"),
+                                                interleaved(shape.positions, shape.normals));
+            }
+            result.targets.push_back(std::move(target));
+        }
+        if (!result.targets.empty()) {
+            result.morphed = gl::Buffer(named("morphed"), result.bound.sizeBytes());
+        }
+    } else {
+        result.bound =
+            gl::Buffer::of(named("rest pose"), interleaved(mesh.positions, mesh.normals));
+    }
+    result.matrices =
+        gl::Buffer::of(named("matrices"), std::vector<glm::mat4>(matrices, glm::mat4(1.0f)),
+                       gl::BufferUse::Update);
+    mMeshes.push_back(std::move(result));
+}
+
+const gl::Buffer& GpuDeformation::morph(MovedMesh& mesh, const std::vector<double>& weights) {
+    if (mesh.targets.empty()) {
+        return mesh.bound;
+    }
+    glCopyNamedBufferSubData(mesh.bound.id(), mesh.morphed.id(), 0, 0,
+                             static_cast<GLsizeiptr>(mesh.bound.sizeBytes()));
+    mMorph.use();
+    mesh.morphed.bindStorage(0);
+    for (std::size_t t = 0; t < std::min(mesh.targets.size(), weights.size()); ++t) {
+        const Target& target = mesh.targets[t];
+        if (target.count == 0 || weights[t] == 0.0) {
+            continue;
+        }
+        mMorph.set(0, target.count);
+        mMorph.set(1, static_cast<float>(weights[t]));
+        target.vertices.bindStorage(1);
+        target.changes.bindStorage(2);
+        dispatch(target.count);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    }
+    return mesh.morphed;
+}
+
+void GpuDeformation::sendDeformers(const Pose& pose) {
+    std::vector<DeformerEntry> entries;
+    for (const Deformer& deformer : pose.deformers) {
+        entries.push_back(entryOf(deformer, pose.box));
+    }
+    if (!mDeformers || entries.size() > mDeformerCapacity) {
+        mDeformerCapacity = std::max<std::size_t>(entries.size(), 8);
+        mDeformers = gl::Buffer("deformers", mDeformerCapacity * sizeof(DeformerEntry),
+                                gl::BufferUse::Update);
+    }
+    if (!entries.empty()) {
+        mDeformers.write(entries);
+    }
+}
+
+void GpuDeformation::move(std::size_t index, const Pose& pose) {
+    MovedMesh& mesh = mMeshes[index];
+    const bool moves = mesh.isBound || !pose.deformers.empty();
+    if (!moves && !mesh.isMoved) {
+        return;
+    }
+    mesh.isMoved = moves;
+    const GpuWorld::Geometry geometry = mTarget.geometry(index);
+    const MeshPose& meshPose = pose.meshes[index];
+    const gl::Buffer& bound = morph(mesh, meshPose.weights);
+    if (mesh.isBound) {
+        const std::vector<glm::mat4> matrices(meshPose.matrices.begin(), meshPose.matrices.end());
+        mesh.matrices.write(matrices);
+    }
+    int flags = mesh.isBound ? kHasMap : 0;
+    if (needsMiters(pose)) {
+        if (!mesh.miters) {
+            mesh.miters = gl::Buffer::of("miters", miterDirections(mRest.meshes[index].mesh));
+        }
+        flags |= kHasMiters;
+    }
+    const auto orNothing = [&](const gl::Buffer& buffer) -> const gl::Buffer& {
+        return buffer ? buffer : mNothing;
+    };
+    mDeform.use();
+    mDeform.set(0, glm::ivec4(mesh.vertices, mesh.influenceCount,
+                              static_cast<int>(pose.deformers.size()), flags));
+    mDeform.set(1, GpuWorld::kVertexFloats);
+    bound.bindStorage(0);
+    orNothing(mesh.map).bindStorage(1);
+    orNothing(mesh.influences).bindStorage(2);
+    mesh.matrices.bindStorage(3);
+    geometry.vertices.bindStorage(4);
+    mDeformers.bindStorage(5);
+    orNothing(mesh.miters).bindStorage(6);
+    dispatch(mesh.vertices);
+    if (mesh.isMirrored != pose.mirrored[index]) {
+        mesh.isMirrored = pose.mirrored[index];
+        mFlip.use();
+        mFlip.set(0, mesh.triangles);
+        geometry.indices.bindStorage(0);
+        dispatch(mesh.triangles);
+    }
+    if (mesh.isFlat) {
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        mFlatNormals.use();
+        mFlatNormals.set(0, mesh.triangles);
+        mFlatNormals.set(1, GpuWorld::kVertexFloats);
+        geometry.vertices.bindStorage(0);
+        geometry.indices.bindStorage(1);
+        dispatch(mesh.triangles);
+    }
+}
+
+GpuDeformation::Bounds GpuDeformation::measure(const Pose& pose) {
+    mBounds.write(std::array<BoundsEntry, 2>{});
+    mBoundsOf.use();
+    mBoundsOf.set(1, GpuWorld::kVertexFloats);
+    mBounds.bindStorage(1);
+    for (int task = 0; task < 2; ++task) {
+        for (std::size_t m = 0; m < mMeshes.size(); ++m) {
+            const GpuWorld::Geometry geometry = mTarget.geometry(m);
+            mBoundsOf.set(0, mMeshes[m].vertices);
+            mBoundsOf.set(2, glm::ivec2(task, geometry.scatters ? 1 : 0));
+            geometry.vertices.bindStorage(0);
+            dispatch(mMeshes[m].vertices);
+        }
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    }
+    const std::vector<BoundsEntry> entries = mBounds.read<BoundsEntry>();
+    if (entries[0].gone > 0) {
+        refuseExplosion(mRest, pose);
+        throw InputError("the deformation", "takes the surface beyond what the GPU can count",
+                         "give it smaller amounts");
+    }
+    return {sphereOf(entries[1]), sphereOf(entries[0])};
+}
+
+GpuDeformation::Bounds GpuDeformation::apply(const Pose& pose) {
+    const gl::DebugGroup group("deformation");
+    sendDeformers(pose);
+    for (std::size_t m = 0; m < mMeshes.size(); ++m) {
+        move(m, pose);
+    }
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT |
+                    GL_ELEMENT_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    return measure(pose);
+}
+
+} // namespace celadon

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "renderer/gl/buffer.h"
+#include "renderer/gl/program.h"
+#include "renderer/gl/shader_library.h"
+#include "renderer/gpu_world.h"
+#include "renderer/scene/motion.h"
+
+#include <vector>
+
+/// Moves the vertices of a GpuWorld, on the GPU, once a frame: morph targets, skins and nodes, then
+/// deformers, into the very buffers that the light and the camera passes draw from. The CPU sends
+/// matrices and weights and gets 64 bytes of bounds back; it never touches a vertex. Texture
+/// coordinates stay, so that the material stays glued to the surface.
+namespace celadon {
+
+class GpuDeformation {
+public:
+    /// @param rest at rest, the world that `target` was made of; both outlive the deformation
+    GpuDeformation(const gl::ShaderLibrary& shaders, const World& rest, const GpuWorld& target);
+
+    /// Of the moved vertices, as World has them at rest.
+    struct Bounds {
+        BoundingSphere scattering;
+        BoundingSphere scene;
+    };
+
+    /// Waits for the GPU, which has little to do before: a frame begins here.
+    /// @param pose of a Motion of the same world
+    /// @throws InputError that names the mesh and the cause, when a vertex is not finite; the
+    ///         buffers then hold what they hold, until the next apply()
+    Bounds apply(const Pose& pose);
+
+private:
+    struct Target {
+        gl::Buffer vertices, changes;
+        int count = 0;
+    };
+    struct MovedMesh {
+        gl::Buffer bound;   ///< position and normal of each vertex of the binding
+        gl::Buffer morphed; ///< the same with morph targets on; none without
+        gl::Buffer map, influences, matrices, miters;
+        std::vector<Target> targets;
+        int vertices = 0;
+        int triangles = 0;
+        int influenceCount = 0;
+        bool isFlat = false;
+        bool isBound = false;
+        bool isMirrored = false; ///< triangles are turned over now
+        bool isMoved = false;    ///< not at rest now
+    };
+
+    void addMesh(const WorldMesh& source);
+    void move(std::size_t mesh, const Pose& pose);
+    [[nodiscard]] const gl::Buffer& morph(MovedMesh& mesh, const std::vector<double>& weights);
+    void sendDeformers(const Pose& pose);
+    [[nodiscard]] Bounds measure(const Pose& pose);
+
+    const World& mRest;
+    const GpuWorld& mTarget;
+    gl::Program mMorph, mDeform, mFlatNormals, mFlip, mBoundsOf;
+    gl::Buffer mNothing; ///< stands for a buffer that a mesh does not have
+    gl::Buffer mDeformers;
+    std::size_t mDeformerCapacity = 0;
+    gl::Buffer mBounds;
+    std::vector<MovedMesh> mMeshes;
+};
+
+} // namespace celadon

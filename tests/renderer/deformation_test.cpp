@@ -1,0 +1,185 @@
+#include "renderer/gpu_deformation.h"
+#include "subedit/errors.h"
+#include "tests/support/frames.h"
+#include "tests/support/gl_fixture.h"
+#include "tests/support/materials.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+// The GPU against the CPU, which computes in double precision by other code.
+
+namespace celadon {
+namespace {
+
+using test::makeWorld;
+
+/// Of the bounding sphere's radius: matrices and coordinates are floats there.
+constexpr double kPosition = 1e-5;
+constexpr double kNormalDegrees = 0.1;
+/// The same picture from vertices that differ in their last bits: texels at edges change sides.
+constexpr double kSameShape = 1e-4;
+
+MaterialPointer wax() {
+    return test::makeMaterial("wax", 1, 32, 20.0f, [](int, int) { return test::ProfileRecipe{}; });
+}
+
+std::vector<Deformer> deformers(const std::vector<std::string>& texts) {
+    std::vector<Deformer> result;
+    for (const std::string& text : texts) {
+        result.push_back(parseDeformer(text));
+    }
+    return result;
+}
+
+class DeformationTest : public test::GlTest {
+protected:
+    /// Moves on both sides and compares every vertex, index and bound.
+    static void compare(const World& rest, const GpuWorld& gpu, GpuDeformation& deformation,
+                        const Pose& pose, const std::string& what) {
+        SCOPED_TRACE(what);
+        const GpuDeformation::Bounds bounds = deformation.apply(pose);
+        const World expected = posedWorld(rest, pose);
+        const double radius = expected.sceneSphere.radius;
+        double worstPosition = 0.0;
+        double worstCosine = 1.0;
+        for (std::size_t m = 0; m < rest.meshes.size(); ++m) {
+            const DeformedMesh mesh = deformedMesh(rest, m, pose);
+            const std::vector<float> drawn = gpu.geometry(m).vertices.read<float>();
+            ASSERT_EQ(drawn.size(), mesh.positions.size() * GpuWorld::kVertexFloats);
+            EXPECT_EQ(gpu.geometry(m).indices.read<std::uint32_t>(),
+                      expected.meshes[m].mesh.indices);
+            for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+                const float* const v = &drawn[i * GpuWorld::kVertexFloats];
+                const glm::dvec3 p(v[0], v[1], v[2]);
+                const glm::dvec3 n(v[3], v[4], v[5]);
+                worstPosition = std::max(worstPosition, glm::length(p - mesh.positions[i]));
+                if (glm::length(mesh.normals[i]) > 0.0) {
+                    worstCosine = std::min(worstCosine, glm::dot(n, mesh.normals[i]));
+                }
+            }
+        }
+        EXPECT_LT(worstPosition, kPosition * radius);
+        EXPECT_GT(worstCosine, std::cos(kNormalDegrees * std::numbers::pi / 180.0));
+        for (const auto& [got, wanted] :
+             {std::pair(bounds.scene, expected.sceneSphere),
+              std::pair(bounds.scattering, expected.scatteringSphere)}) {
+            EXPECT_LT(glm::length(got.center - wanted.center), kPosition * radius);
+            EXPECT_NEAR(got.radius, wanted.radius, kPosition * radius);
+        }
+    }
+};
+
+TEST_F(DeformationTest, AnimatedModelsMatchDoublePrecisionAtTenTimes) {
+    if (!test::modelFolder()) {
+        GTEST_SKIP() << "CELADON_MODELS is not set";
+    }
+    for (const char* const model : {"gltf/AnimatedMorphCube.glb", "gltf/MorphPrimitivesTest.glb",
+                                    "gltf/CesiumMan.glb", "gltf/RiggedSimple.glb"}) {
+        const World rest = makeWorld(model, wax());
+        Motion motion(rest);
+        const GpuScene scene(rest, {});
+        GpuDeformation deformation(scene.shaders, rest, scene.gpuWorld);
+        for (std::size_t a = 0; a < std::max<std::size_t>(motion.animations().size(), 1); ++a) {
+            double duration = 1.0;
+            if (!motion.animations().empty()) {
+                motion.selectAnimation(a);
+                duration = motion.animations()[a].durationSeconds;
+            }
+            double movement = 0.0;
+            for (int i = 0; i < 10; ++i) {
+                const double seconds = duration * (i + 0.37) / 9.5; // the last one starts over
+                motion.setDeformers({});
+                const Pose pose = motion.at(seconds);
+                compare(rest, scene.gpuWorld, deformation, pose,
+                        fmt::format("{}, animation {} at {:.3f} s", model, a, seconds));
+                const glm::dvec3 before(rest.meshes[0].mesh.positions[0]);
+                for (const DeformedMesh& mesh : {deformedMesh(rest, 0, pose)}) {
+                    movement = std::max(movement, glm::length(mesh.positions[0] - before));
+                }
+                motion.setDeformers(deformers({"twist:y:40", "inflate:0.5"}));
+                compare(rest, scene.gpuWorld, deformation, motion.at(seconds),
+                        fmt::format("{}, twisted, at {:.3f} s", model, seconds));
+            }
+            EXPECT_TRUE(motion.animations().empty() || movement > 0.0) << model;
+        }
+    }
+}
+
+TEST_F(DeformationTest, DeformersMatchDoublePrecision) {
+    const World rest = makeWorld("builtin:vase", wax());
+    Motion motion(rest);
+    const GpuScene scene(rest, {});
+    GpuDeformation deformation(scene.shaders, rest, scene.gpuWorld);
+    const std::vector<std::vector<std::string>> stacks{
+        {"twist:y:90"},
+        {"twist:x:-1000"},
+        {"bend:y:120"},
+        {"bend:z:-200"},
+        {"bend:y:0.001"},
+        {"taper:y:0.2"},
+        {"taper:x:3"},
+        {"wave:x:4:30"},
+        {"inflate:2"},
+        {"inflate:-1"},
+        {"taper:y:0.5", "twist:y:180", "inflate:1", "bend:y:60", "wave:z:2:40"},
+        {}};
+    for (const std::vector<std::string>& texts : stacks) {
+        motion.setDeformers(deformers(texts));
+        std::string what;
+        for (const std::string& text : texts) {
+            what += text + " ";
+        }
+        compare(rest, scene.gpuWorld, deformation, motion.at(0.0), what);
+    }
+}
+
+TEST_F(DeformationTest, TheDeformedFrameIsThatOfTheSameShape) {
+    const World original = makeWorld("builtin:vase", wax());
+    World rest = original;
+    Motion motion(original);
+    motion.setDeformers(deformers({"twist:y:70", "bend:y:40", "inflate:1"}));
+    const Pose pose = motion.at(0.0);
+    const World posed = posedWorld(original, pose);
+    const FrameSettings settings = test::smallFrame({96, 96}, 256, Scheme::Hierarchical);
+    const Camera camera = test::defaultCamera(posed, settings.size);
+    const std::vector<Light> lights{test::backLight(), test::frontLight()};
+    const RenderedFrame expected = test::renderFrame(context(), posed, settings, camera, lights);
+
+    const auto scene = std::make_shared<const GpuScene>(rest, settings);
+    FrameRenderer renderer(context(), scene, settings);
+    const RenderedFrame undeformed = renderer.render(camera, lights);
+    GpuDeformation deformation(scene->shaders, original, scene->gpuWorld);
+    const GpuDeformation::Bounds bounds = deformation.apply(pose);
+    rest.scatteringSphere = bounds.scattering;
+    rest.sceneSphere = bounds.scene;
+    const RenderedFrame deformed = renderer.render(camera, lights);
+    EXPECT_LT(test::compareExitance(deformed.image, expected.image).relativeRmse, kSameShape);
+    EXPECT_GT(test::compareExitance(undeformed.image, expected.image).relativeRmse, 0.1);
+}
+
+TEST_F(DeformationTest, AnExplosionIsStoppedWithItsCause) {
+    const World rest = makeWorld("builtin:sphere", wax());
+    Motion motion(rest);
+    const GpuScene scene(rest, {});
+    GpuDeformation deformation(scene.shaders, rest, scene.gpuWorld);
+    motion.setDeformers(deformers({"twist:y:10", "taper:y:1e300"}));
+    try {
+        (void)deformation.apply(motion.at(0.0));
+        ADD_FAILURE() << "was deformed";
+    } catch (const InputError& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("deformer 2 of 2"));
+    }
+    motion.setDeformers({}); // the next pose is none the worse
+    compare(rest, scene.gpuWorld, deformation, motion.at(0.0), "after the explosion");
+}
+
+} // namespace
+} // namespace celadon
