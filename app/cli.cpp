@@ -1,6 +1,7 @@
 #include "app/cli.h"
 
 #include "app/command.h"
+#include "app/command_bench.h"
 #include "app/command_compare.h"
 #include "app/command_edit.h"
 #include "app/command_info.h"
@@ -166,7 +167,7 @@ int runCommandLine(int argc, const char* const* argv) {
     const Command root{&app,
                        {},
                        {addEditCommand(app), addRenderCommand(app), addProfileCommand(app),
-                        addMaterialCommand(app), addCompareCommand(app), addInfoCommand(app)}};
+                        addMaterialCommand(app), addCompareCommand(app), addBenchCommand(app), addInfoCommand(app)}};
     addCommonOptions(root, verbose);
     app.set_version_flag("--version", "celadon " CELADON_VERSION, "Shows the version")
         ->group("General");

@@ -9,8 +9,8 @@
 #include "subedit/document/document.h"
 #include "subedit/document/stroke_file.h"
 #include "subedit/errors.h"
+#include "subedit/map/material_convert.h"
 #include "subedit/map/material_file.h"
-#include "subedit/radius_map.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -34,6 +34,7 @@ struct EditOptions {
     std::string model;
     std::optional<double> millimetersPerUnit;
     std::optional<double> diameterMm;
+    int size = 0;
     bool storeFloat = false;
     bool json = false;
     std::string output;
@@ -73,6 +74,20 @@ SurfaceAtlas surfaceFor(const EditOptions& options, const StrokeSurface& recorde
                      options.model, atlas.overlaps);
     }
     return atlas;
+}
+
+/// The material at the size that was painted on, or that is asked for.
+MaterialPointer sized(const MaterialPointer& material, const EditOptions& options,
+                      const StrokeFile& strokes) {
+    glm::ivec2 texels = strokes.surface.texels.value_or(glm::ivec2(0));
+    if (options.size > 0) {
+        texels = glm::ivec2(options.size);
+    }
+    if (texels.x <= 0 || (texels.x == material->width && texels.y == material->height)) {
+        return material;
+    }
+    return std::make_shared<MaterialMap>(
+        convertMaterial(*material, {.width = texels.x, .height = texels.y}));
 }
 
 /// What the commands ran into, on stderr; nothing is clamped silently.
@@ -121,8 +136,9 @@ void runEdit(const EditOptions& options) {
                          "name it with --model");
     }
     checkWritable(options.output);
-    const MaterialPointer material = readMaterialArgument(options.material);
     const StrokeFile strokes = readStrokeFile(options.strokes, lookUpProfile);
+    const MaterialPointer material =
+        sized(readMaterialArgument(options.material), options, strokes);
     Document document(*material,
                       std::make_shared<Surface>(surfaceFor(options, strokes.surface, material)));
 
@@ -174,6 +190,10 @@ Command addMaterialEdit(CLI::App& material) {
               takeNumber(o.millimetersPerUnit, kPositive));
     addOption(*edit, "--diameter", {group, "MM", "Of the model's bounding sphere"},
               takeNumber(o.diameterMm, kPositive));
+    addOption(
+        *edit, "--size",
+        {group, "N", "Texels a side to edit at; default: as it was painted, or the material's"},
+        takeInteger(o.size, 1, 4096));
     group = "Result";
     addOption(*edit, "-o,--output", {group, "FILE", "The edited material, NAME.subedit.exr"},
               takeText(o.output));

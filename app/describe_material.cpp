@@ -19,6 +19,10 @@ namespace {
 
 using namespace subedit;
 
+constexpr float kCutEnergy = 0.01f;
+constexpr float kBlackAlbedo = 1e-6f;
+constexpr int kFewSegments = 8; ///< with fewer, the last one holds much in any case
+
 /// Least and greatest of per-texel values, by channel or alone.
 struct Extent {
     float least = std::numeric_limits<float>::infinity();
@@ -33,6 +37,7 @@ struct Extent {
 struct MaterialSummary {
     Extent albedo[3];
     Extent radius;
+    float cut = 0.0f; ///< largest part of a texel's energy within the last segment
     double memoryMb = 0.0;
 };
 
@@ -41,6 +46,21 @@ MaterialSummary summarize(const MaterialMap& map) {
     const std::vector<float> albedo = albedoMap(map);
     for (std::size_t i = 0; i < albedo.size(); ++i) {
         summary.albedo[i % 3].add(albedo[i]);
+    }
+    for (int y = 0; y < map.height; ++y) {
+        for (int x = 0; x < map.width; ++x) {
+            const ProfileView profile = profileAt(map, x, y);
+            const double inside = static_cast<double>(map.maxRadiusMm) * (1.0 - 1.0 / map.segments);
+            const glm::dvec3 total = radialEnergy(profile, static_cast<double>(map.maxRadiusMm));
+            const glm::dvec3 within = radialEnergy(profile, inside);
+            for (int channel = 0; channel < 3; ++channel) {
+                if (total[channel] > static_cast<double>(kBlackAlbedo) &&
+                    map.segments >= kFewSegments) {
+                    summary.cut = std::max(
+                        summary.cut, static_cast<float>(1.0 - within[channel] / total[channel]));
+                }
+            }
+        }
     }
     for (const float radius : effectiveRadiusMap(map)) {
         summary.radius.add(radius);
@@ -64,6 +84,28 @@ void printSummary(const MaterialMap& map, const MaterialSummary& summary) {
     fmt::print("channels  {}{}\n", map.roughness.empty() ? "no roughness" : "roughness",
                map.specular.empty() ? ", no specular" : ", specular");
     fmt::print("memory    {:.4g} MB\n", summary.memoryMb);
+}
+
+/// What a user should know of a material that can be used as it is.
+void findWarnings(const MaterialMap& map, const MaterialSummary& summary,
+                  std::vector<std::string>& warnings) {
+    const float segment = map.maxRadiusMm / static_cast<float>(map.segments);
+    if (summary.radius.least < segment) {
+        warnings.push_back(
+            fmt::format("the shortest profile, R_P = {:.3g} mm, ends within the first "
+                        "segment of {:.3g} mm: more segments, or a smaller r_s, "
+                        "would hold its shape",
+                        summary.radius.least, segment));
+    }
+    if (summary.cut > kCutEnergy) {
+        warnings.push_back(fmt::format("up to {:.2g} % of a profile's energy lies within the last "
+                                       "segment: it may have been cut at r_s",
+                                       100.0f * summary.cut));
+    }
+    if (std::max({summary.albedo[0].greatest, summary.albedo[1].greatest,
+                  summary.albedo[2].greatest}) < kBlackAlbedo) {
+        warnings.emplace_back("it is black: no profile returns light");
+    }
 }
 
 nlohmann::json summaryJson(const MaterialMap& map, const MaterialSummary& summary,
@@ -94,6 +136,7 @@ void describeMaterial(const std::string& nameOrPath, bool asJson) {
     const std::filesystem::path file = findMaterial(nameOrPath);
     const MaterialMap map = readMaterial(file, &warnings);
     const MaterialSummary summary = summarize(map);
+    findWarnings(map, summary, warnings);
     if (asJson) {
         // A name that is not UTF-8 is shown with replacement characters rather than refused.
         fmt::print("{}\n", summaryJson(map, summary, warnings)

@@ -47,6 +47,9 @@ public:
     ///              "splatting N", "accumulation", as far as the solver has them
     virtual const gl::Texture& solve(const SolveInput& input, gl::StageTimer& timer) = 0;
 
+    /// Texels of the materials were edited in place, and some P is larger than any was.
+    virtual void materialsChanged() {}
+
     /// Samples, pairs and flux of the last solve. May read back: not within a timed frame.
     virtual void report(FrameStats& stats) = 0;
 };

@@ -15,7 +15,8 @@ FrameSettings frameSettings(Quality quality) {
         splatting.pixelAngle = 0.3;
         splatting.fade = 0.3;
         settings.coverageSamples = 1;
-        settings.shadowSize = 256;
+        settings.shadowSize = 16;
+        settings.shadows = false;
         break;
     case Quality::Draft:
         splatting.irradianceSize = 256;

@@ -42,6 +42,26 @@ StageMilliseconds sumStages(const std::vector<gl::StageTime>& stages, int splatt
 
 } // namespace
 
+/// All that direct light depends on besides the world and the settings.
+static std::vector<double> directLightKey(const Camera& camera, std::span<const Light> lights) {
+    std::vector<double> key;
+    const auto add = [&key](const glm::dvec3& v) { key.insert(key.end(), {v.x, v.y, v.z}); };
+    add(camera.eye);
+    add(camera.at);
+    add(camera.up);
+    key.push_back(camera.fovYDegrees);
+    key.push_back(camera.orthographicHeight.value_or(-1.0));
+    for (const Light& light : lights) {
+        key.push_back(static_cast<double>(light.kind));
+        add(light.position);
+        add(light.direction);
+        add(light.color);
+        key.push_back(light.innerConeRadians);
+        key.push_back(light.outerConeRadians);
+    }
+    return key;
+}
+
 GpuScene::GpuScene(const World& theWorld, const FrameSettings& settings)
     : world(theWorld),
       gpuWorld(theWorld),
@@ -100,6 +120,8 @@ struct FrameRenderer::Passes {
     Antialiasing antialiasing;
     CameraView cameraView;
     const gl::Texture* exitance = nullptr;
+    const gl::Texture* color = nullptr;
+    std::vector<double> shadedKey; ///< what the direct light was shaded for
 };
 
 bool FrameRenderer::Passes::draw(const Camera& camera, std::span<const Light> lights,
@@ -116,10 +138,21 @@ bool FrameRenderer::Passes::draw(const Camera& camera, std::span<const Light> li
         return false;
     }
     const auto scope = timer.measure("shading");
-    directLight.shade(lights, world.sceneSphere, gpuWorld, view, settings.specular);
+    // While only materials change, as under a brush, highlights stay as they are.
+    std::vector<double> key = directLightKey(camera, lights);
+    if (key != shadedKey) {
+        directLight.shade(lights, world.sceneSphere, gpuWorld, view, settings.specular,
+                          settings.shadows);
+        shadedKey = std::move(key);
+    }
     shading.shade(view, *exitance, directLight.radiance());
+    if (settings.coverageSamples == 1) {
+        color = &shading.radiance(); // pixel centers as they are
+        return true;
+    }
     antialiasing.resolve(gpuWorld, camera, world.sceneSphere, view, shading.radiance(),
                          settings.coverageSamples);
+    color = &antialiasing.color();
     return true;
 }
 
@@ -151,7 +184,7 @@ StageMilliseconds FrameRenderer::takeTimes() {
 
 const gl::Texture* FrameRenderer::draw(const Camera& camera, std::span<const Light> lights,
                                        const std::atomic<bool>* interrupt) {
-    return mPasses->draw(camera, lights, interrupt) ? &mPasses->antialiasing.color() : nullptr;
+    return mPasses->draw(camera, lights, interrupt) ? mPasses->color : nullptr;
 }
 
 RenderedFrame FrameRenderer::render(const Camera& camera, std::span<const Light> lights) {
@@ -169,7 +202,7 @@ RenderedFrame FrameRenderer::render(const Camera& camera, std::span<const Light>
     if (splatting == nullptr) {
         mPasses->solver->report(frame.stats);
     }
-    readFrame(mPasses->view, *mPasses->exitance, mPasses->antialiasing.color(), mPasses->cameraView,
+    readFrame(mPasses->view, *mPasses->exitance, *mPasses->color, mPasses->cameraView,
               mPasses->materials, mPasses->settings.layers, frame);
     return frame;
 }

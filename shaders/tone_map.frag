@@ -4,8 +4,11 @@
 layout(location = 0) uniform vec2 exposureAndCurve; // 2^EV; 0 neutral, 1 ACES, 2 none
 layout(location = 1) uniform vec3 backgroundTop;    // linear display color
 layout(location = 2) uniform vec3 backgroundBottom;
+layout(location = 3) uniform int selectedMaterial; // whose selection is shown over the picture; -1: none
 
-layout(binding = 0) uniform sampler2D radiance; // premultiplied
+layout(binding = 0) uniform sampler2D radiance;  // premultiplied
+layout(binding = 1) uniform sampler2D surfaces;  // u, v, material of each pixel
+layout(binding = 2) uniform sampler2D selection; // weights over the material's map
 
 layout(location = 0) in vec2 unitPosition;
 layout(location = 0) out vec4 display;
@@ -47,6 +50,14 @@ void main() {
     }
     vec3 background = mix(backgroundBottom, backgroundTop, unitPosition.y);
     vec3 encoded = encodeSrgb(mix(background, color, clamp(texel.a, 0.0, 1.0)));
+    if (selectedMaterial >= 0) {
+        vec4 surface = texelFetch(surfaces, ivec2(gl_FragCoord.xy), 0);
+        if (texel.a > 0.0 && int(surface.z) == selectedMaterial) {
+            float weight = textureLod(selection, fract(surface.xy), 0.0).r;
+            float stripe = fract((gl_FragCoord.x + gl_FragCoord.y) / 12.0) < 0.5 ? 0.42 : 0.24;
+            encoded = mix(encoded, vec3(0.45, 0.95, 0.70), stripe * weight);
+        }
+    }
     // A dark gradient in 8 bits shows bands: triangular noise of one step hides them.
     float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
     display = vec4(encoded + (noise - 0.5) / 255.0, 1.0);

@@ -4,11 +4,13 @@
 #include "subedit/fast_exp.h"
 #include "subedit/multiversion.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 namespace celadon::subedit {
 
@@ -16,6 +18,7 @@ namespace {
 
 constexpr int kSamples = kMeanProfileIntervals + 1;
 using SampleArray = std::array<float, kSamples>;
+using Four = float __attribute__((vector_size(16))); // GCC and Clang alike
 
 /// Integral of P r dr over [start, start + width] for P linear from p0 to p1.
 double linearEnergy(double p0, double p1, double start, double width) {
@@ -37,25 +40,45 @@ class TexelSampler {
 public:
     void sample(const float* logProfile, int segments, float samplesPerSegment,
                 SampleArray& samples) {
-        samples.fill(0.0f);
         const int used = layOut(logProfile, segments, samplesPerSegment);
         exponentials(mExponent.data(), used * 6, mExponential.data());
         int i = 0;
         for (int k = 0; k < used; ++k) {
-            const float* start = mExponential.data() + k * 6;
-            float p0 = start[0];
-            float p1 = start[1];
-            float p2 = start[2];
-            for (; i < mEnd[static_cast<std::size_t>(k)]; ++i) {
-                samples[static_cast<std::size_t>(i)] = p0 + p1 + p2;
-                p0 *= start[3];
-                p1 *= start[4];
-                p2 *= start[5];
-            }
+            i = fill(mExponential.data() + k * 6, i, mEnd[static_cast<std::size_t>(k)],
+                     samples.data());
         }
+        std::fill(samples.begin() + i, samples.end(), 0.0f); // beyond r_s
     }
 
 private:
+    /// Samples from `i` to `end` of one segment, four at a time: one after the other each product
+    /// would wait for the one before.
+    /// @param start P of the channels at the first sample, then what they change by to the next
+    /// @return      `end`
+    static int fill(const float* start, int i, int end, float* samples) {
+        std::array<Four, 3> p;
+        std::array<Four, 3> step;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float ratio = start[3 + c];
+            const float squared = ratio * ratio;
+            p[c] = Four{1.0f, ratio, squared, squared * ratio} * start[c];
+            const float fourth = squared * squared;
+            step[c] = Four{fourth, fourth, fourth, fourth};
+        }
+        for (; i + 4 <= end; i += 4) {
+            const Four sum = p[0] + p[1] + p[2];
+            std::memcpy(samples + i, &sum, sizeof(sum));
+            for (std::size_t c = 0; c < 3; ++c) {
+                p[c] *= step[c];
+            }
+        }
+        const Four sum = p[0] + p[1] + p[2];
+        for (int j = 0; i < end; ++i, ++j) {
+            samples[i] = sum[j];
+        }
+        return end;
+    }
+
     /// ln P at the first sample of each segment and its change per sample, for the segments that
     /// have samples at all. @return their number
     int layOut(const float* logProfile, int segments, float samplesPerSegment) {
@@ -90,14 +113,28 @@ private:
 
 /// Energy of a texel's samples, to the accuracy that C needs (trapezoids of P r).
 float trapezoidEnergy(const SampleArray& samples) {
-    std::array<float, 4> partial{}; // four sums that do not wait for each other
-    for (int i = 1; i < kMeanProfileIntervals; ++i) {
-        partial[static_cast<std::size_t>(i & 3)] +=
-            samples[static_cast<std::size_t>(i)] * static_cast<float>(i);
+    static_assert(kMeanProfileIntervals % 8 == 0);
+    std::array<Four, 2> sum{}; // that do not wait for each other
+    std::array<Four, 2> index{Four{0.0f, 1.0f, 2.0f, 3.0f}, Four{4.0f, 5.0f, 6.0f, 7.0f}};
+    for (std::size_t i = 0; i < kMeanProfileIntervals; i += 8) {
+        for (std::size_t half = 0; half < 2; ++half) {
+            Four p;
+            std::memcpy(&p, samples.data() + i + 4 * half, sizeof(p));
+            sum[half] += p * index[half];
+            index[half] += 8.0f;
+        }
     }
+    const Four both = sum[0] + sum[1];
     const float ends = 0.5f * samples[kMeanProfileIntervals] * kMeanProfileIntervals;
-    return (partial[0] + partial[1] + partial[2] + partial[3] + ends) /
+    return ((both[0] + both[1]) + (both[2] + both[3]) + ends) /
            (static_cast<float>(kMeanProfileIntervals) * kMeanProfileIntervals);
+}
+
+CELADON_MULTIVERSION void addScaled(const float* __restrict samples, float scale,
+                                    float* __restrict sum) {
+    for (int i = 0; i < kSamples; ++i) {
+        sum[i] += samples[i] * scale;
+    }
 }
 
 } // namespace
@@ -118,19 +155,22 @@ MeanProfile::MeanProfile(std::vector<double> samples)
 }
 
 double MeanProfile::value(double r) const {
+    return at(r).value;
+}
+
+double MeanProfile::energyBeyond(double r) const {
+    return at(r).energyBeyond;
+}
+
+MeanProfile::Point MeanProfile::at(double r) const {
     const auto intervals = static_cast<double>(mSamples.size() - 1);
     const double position = std::clamp(r, 0.0, 1.0) * intervals;
     const auto i = std::min(static_cast<std::size_t>(position), mSamples.size() - 2);
     const double t = position - static_cast<double>(i);
-    return mSamples[i] + (mSamples[i + 1] - mSamples[i]) * t;
-}
-
-double MeanProfile::energyBeyond(double r) const {
-    const auto intervals = static_cast<double>(mSamples.size() - 1);
-    const double start = std::clamp(r, 0.0, 1.0);
-    const auto i = std::min(static_cast<std::size_t>(start * intervals), mSamples.size() - 2);
-    const double end = static_cast<double>(i + 1) / intervals;
-    return mBeyond[i + 1] + linearEnergy(value(start), mSamples[i + 1], start, end - start);
+    const double p = mSamples[i] + (mSamples[i + 1] - mSamples[i]) * t;
+    const double width = 1.0 / intervals;
+    return {p,
+            mBeyond[i + 1] + linearEnergy(p, mSamples[i + 1], position * width, (1.0 - t) * width)};
 }
 
 MeanProfileSums::MeanProfileSums(const MaterialMap& map, std::span<const float> effectiveRadiusMm)
@@ -138,58 +178,74 @@ MeanProfileSums::MeanProfileSums(const MaterialMap& map, std::span<const float> 
       mTilesY((map.height + kTileSize - 1) / kTileSize),
       mTiles(static_cast<std::size_t>(mTilesX) * static_cast<std::size_t>(mTilesY)),
       mRowSums(static_cast<std::size_t>(mTilesY), std::vector<double>(kSamples)) {
-    update(map, effectiveRadiusMm, {0, 0, map.width, map.height});
+    const TexelRect whole{0, 0, map.width, map.height};
+    update(map, effectiveRadiusMm, {&whole, 1});
 }
 
 void MeanProfileSums::update(const MaterialMap& map, std::span<const float> effectiveRadiusMm,
-                             const TexelRect& rect) {
+                             std::span<const TexelRect> rects) {
     CELADON_ASSERT(effectiveRadiusMm.size() ==
                    static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
-    if (rect.isEmpty()) {
-        return;
+    std::vector<int> tiles;
+    std::vector<int> rows;
+    for (const TexelRect& rect : rects) {
+        if (rect.isEmpty()) {
+            continue;
+        }
+        for (int y = rect.y / kTileSize; y <= (rect.bottom() - 1) / kTileSize; ++y) {
+            rows.push_back(y);
+            for (int x = rect.x / kTileSize; x <= (rect.right() - 1) / kTileSize; ++x) {
+                tiles.push_back(y * mTilesX + x);
+            }
+        }
     }
-    const auto stride = static_cast<std::size_t>(map.knots()) * 3;
-    const float h = map.maxRadiusMm / static_cast<float>(map.segments);
-    const int firstX = rect.x / kTileSize;
-    const int firstY = rect.y / kTileSize;
-    const int countX = (rect.right() - 1) / kTileSize - firstX + 1;
-    const int countY = (rect.bottom() - 1) / kTileSize - firstY + 1;
+    const auto dropRepeated = [](std::vector<int>& indices) {
+        std::sort(indices.begin(), indices.end());
+        indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+    };
+    dropRepeated(tiles);
+    dropRepeated(rows);
 
-    // Tiles summed each in a fixed order: the same bits whatever the number of cores.
-    tbb::parallel_for(0, countX * countY, [&](int i) {
-        const int tileX = firstX + i % countX;
-        const int tileY = firstY + i / countX;
-        Sum& sum = mTiles[static_cast<std::size_t>(tileY) * static_cast<std::size_t>(mTilesX) +
-                          static_cast<std::size_t>(tileX)];
-        sum.fill(0.0f);
-        Sum samples;
-        TexelSampler sampler;
-        for (int y = tileY * kTileSize; y < std::min(map.height, (tileY + 1) * kTileSize); ++y) {
-            for (int x = tileX * kTileSize; x < std::min(map.width, (tileX + 1) * kTileSize); ++x) {
-                const std::size_t texel =
-                    static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
-                    static_cast<std::size_t>(x);
-                const float samplesPerSegment =
-                    h / effectiveRadiusMm[texel] * kMeanProfileIntervals;
-                sampler.sample(map.logProfile.data() + texel * stride, map.segments,
-                               samplesPerSegment, samples);
-                const float scale = 1.0f / std::max(trapezoidEnergy(samples), 1e-30f);
-                for (std::size_t s = 0; s < kSamples; ++s) {
-                    sum[s] += samples[s] * scale;
-                }
+    // Tiles, and rows of tiles, are summed in a fixed order: the same bits whatever the number of
+    // cores.
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), 4),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                          for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                              sumTile(map, effectiveRadiusMm, tiles[i]);
+                          }
+                      });
+    tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
+        std::vector<double>& sum = mRowSums[static_cast<std::size_t>(rows[i])];
+        sum.assign(kSamples, 0.0);
+        for (int x = 0; x < mTilesX; ++x) {
+            const Sum& tile = mTiles[static_cast<std::size_t>(rows[i] * mTilesX + x)];
+            for (std::size_t s = 0; s < kSamples; ++s) {
+                sum[s] += static_cast<double>(tile[s]);
             }
         }
     });
-    for (int tileY = firstY; tileY < firstY + countY; ++tileY) {
-        std::vector<double>& row = mRowSums[static_cast<std::size_t>(tileY)];
-        row.assign(kSamples, 0.0);
-        for (int tileX = 0; tileX < mTilesX; ++tileX) {
-            const Sum& sum =
-                mTiles[static_cast<std::size_t>(tileY) * static_cast<std::size_t>(mTilesX) +
-                       static_cast<std::size_t>(tileX)];
-            for (std::size_t s = 0; s < kSamples; ++s) {
-                row[s] += static_cast<double>(sum[s]);
-            }
+}
+
+void MeanProfileSums::sumTile(const MaterialMap& map, std::span<const float> effectiveRadiusMm,
+                              int tile) {
+    const auto stride = static_cast<std::size_t>(map.knots()) * 3;
+    const float h = map.maxRadiusMm / static_cast<float>(map.segments);
+    const int left = tile % mTilesX * kTileSize;
+    const int top = tile / mTilesX * kTileSize;
+    Sum& sum = mTiles[static_cast<std::size_t>(tile)];
+    sum.fill(0.0f);
+    Sum samples;
+    TexelSampler sampler;
+    for (int y = top; y < std::min(map.height, top + kTileSize); ++y) {
+        for (int x = left; x < std::min(map.width, left + kTileSize); ++x) {
+            const std::size_t texel =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
+                static_cast<std::size_t>(x);
+            const float samplesPerSegment = h / effectiveRadiusMm[texel] * kMeanProfileIntervals;
+            sampler.sample(map.logProfile.data() + texel * stride, map.segments, samplesPerSegment,
+                           samples);
+            const float scale = 1.0f / std::max(trapezoidEnergy(samples), 1e-30f);
+            addScaled(samples.data(), scale, sum.data());
         }
     }
 }

@@ -25,6 +25,12 @@ public:
     [[nodiscard]] double value(double r) const;
     /// Integral of P r dr over [r, 1].
     [[nodiscard]] double energyBeyond(double r) const;
+    struct Point {
+        double value;
+        double energyBeyond;
+    };
+    /// Both at once.
+    [[nodiscard]] Point at(double r) const;
     [[nodiscard]] std::span<const double> samples() const { return mSamples; }
 
 private:
@@ -38,19 +44,21 @@ private:
 /// so count by the energy that each brings. Texels count alike, whatever their albedo.
 class MeanProfileSums {
 public:
-    static constexpr int kTileSize = 16; ///< texels on a side
+    static constexpr int kTileSize = 8; ///< texels on a side
 
     /// @param effectiveRadiusMm R_P of each texel, as from effectiveRadiusMap()
     MeanProfileSums(const MaterialMap& map, std::span<const float> effectiveRadiusMm);
 
-    /// Texels of `rect` have changed: the same bits as sums made anew.
+    /// Texels of `rects` have changed: the same bits as sums made anew.
     void update(const MaterialMap& map, std::span<const float> effectiveRadiusMm,
-                const TexelRect& rect);
+                std::span<const TexelRect> rects);
 
     [[nodiscard]] MeanProfile mean() const;
 
 private:
     using Sum = std::array<float, kMeanProfileIntervals + 1>;
+    void sumTile(const MaterialMap& map, std::span<const float> effectiveRadiusMm, int tile);
+
     int mTilesX = 0;
     int mTilesY = 0;
     std::vector<Sum> mTiles;                   ///< [tilesY][tilesX]

@@ -1,9 +1,11 @@
 // Commands about the tool in hand. Lengths in mm.
+#include "subedit/errors.h"
 #include "ui/session.h"
 
 #include <glm/vec3.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace celadon::ui {
 
@@ -42,6 +44,15 @@ void changeOperator(PaintState& paint, const Arguments& a) {
     if (a.has("rangeFactor")) {
         changed.rangeFactor = static_cast<float>(a.numberWithin("rangeFactor", 0.05, 20.0));
     }
+    if (a.has("enhance")) {
+        changed.enhanceAmount = static_cast<float>(a.numberWithin("enhance", -1.0, 4.0));
+    }
+    if (a.has("neighborhood")) {
+        changed.neighborhoodMm = static_cast<float>(a.numberWithin("neighborhood", 1e-2, 1e3));
+    }
+    if (a.has("tolerance")) {
+        changed.tolerance = static_cast<float>(a.numberWithin("tolerance", 1e-3, 1.0));
+    }
     if (a.has("color")) {
         changed.color = colorArgument(a, "color");
     }
@@ -66,11 +77,18 @@ void addBrushCommands(Session& session) {
                          session.paint.mirror[i] = a.flag(names[i], session.paint.mirror[i]);
                      }
                  });
-    commands.add("tool.choose", "paint, select or pick", [&session](const Arguments& a) {
+    commands.add("tool.choose", "paint, select, similar or pick", [&session](const Arguments& a) {
         const std::string name = a.text("name");
-        session.paint.tool = name == "select" ? Tool::Select
-                             : name == "pick" ? Tool::Pick
-                                              : Tool::Paint;
+        for (const auto& [word, tool] :
+             {std::pair{"paint", Tool::Paint}, std::pair{"select", Tool::Select},
+              std::pair{"similar", Tool::Similar}, std::pair{"pick", Tool::Pick}}) {
+            if (name == word) {
+                session.paint.tool = tool;
+                return;
+            }
+        }
+        throw UsageError("tool '" + name + "'", "there is no such tool",
+                         "choose paint, select, similar or pick");
     });
 }
 

@@ -1,9 +1,11 @@
 #include "ui/layout.h"
 
+#include "subedit/errors.h"
 #include "ui/panels/brush_panel.h"
 #include "ui/panels/help_window.h"
 #include "ui/panels/light_panel.h"
 #include "ui/panels/material_panel.h"
+#include "ui/panels/preferences_window.h"
 #include "ui/panels/profile_panel.h"
 #include "ui/panels/view_panel.h"
 #include "ui/theme.h"
@@ -30,12 +32,37 @@ float menuHeight() {
     return ImGui::GetFrameHeight();
 }
 
+struct Named {
+    Tab tab;
+    const char* label;
+    std::string_view word;
+};
+constexpr std::array<Named, 5> kTabs{{{Tab::Brush, "Brush", "brush"},
+                                      {Tab::Profile, "Profile", "profile"},
+                                      {Tab::Materials, "Material", "material"},
+                                      {Tab::Light, "Light", "light"},
+                                      {Tab::View, "View", "view"}}};
+
 /// Side bar that leaves at least half of a narrow window to the picture.
 float sideBarWidth(float windowWidth, float scale) {
     return std::min(kSideBarWidth * scale, 0.5f * windowWidth);
 }
 
-void drawMenu(Session& session, LayoutState& state, const LayoutActions& actions) {
+void drawRecent(const char* label, const std::vector<std::string>& entries,
+                const std::function<void(const std::string&)>& open) {
+    if (ImGui::BeginMenu(label, !entries.empty())) {
+        for (const std::string& entry : entries) {
+            if (ImGui::MenuItem(entry.c_str())) {
+                open(entry);
+                break;
+            }
+        }
+        ImGui::EndMenu();
+    }
+}
+
+void drawMenu(Session& session, LayoutState& state, const Preferences& preferences,
+              const LayoutActions& actions) {
     if (!ImGui::BeginMainMenuBar()) {
         return;
     }
@@ -55,6 +82,8 @@ void drawMenu(Session& session, LayoutState& state, const LayoutActions& actions
             }
             ImGui::EndMenu();
         }
+        drawRecent("Recent models", preferences.recentModels, actions.open);
+        drawRecent("Recent materials", preferences.recentMaterials, actions.putOn);
         item("Open material\xe2\x80\xa6", "", actions.openMaterial);
         item("Open environment\xe2\x80\xa6", "", actions.openEnvironment);
         ImGui::Separator();
@@ -83,6 +112,10 @@ void drawMenu(Session& session, LayoutState& state, const LayoutActions& actions
         }
         if (ImGui::MenuItem("Swap profiles", "X")) {
             session.perform({"profile.swap"});
+        }
+        ImGui::Separator();
+        if (ImGui::MenuItem("Preferences\xe2\x80\xa6")) {
+            state.preferencesShown = true;
         }
         ImGui::EndMenu();
     }
@@ -116,15 +149,6 @@ void drawSideBar(Session& session, LayoutState& state, const LayoutActions& acti
     ImGui::SetNextWindowSize(
         {width, std::max(1.0f, size.y - menuHeight() - kStatusHeight * scale)});
     if (ImGui::Begin("##side", nullptr, kFixed)) {
-        struct Named {
-            Tab tab;
-            const char* label;
-        };
-        constexpr std::array<Named, 5> kTabs{{{Tab::Brush, "Brush"},
-                                              {Tab::Profile, "Profile"},
-                                              {Tab::Materials, "Material"},
-                                              {Tab::Light, "Light"},
-                                              {Tab::View, "View"}}};
         const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
         const float each =
             (ImGui::GetContentRegionAvail().x - gap * (kTabs.size() - 1)) / kTabs.size();
@@ -158,6 +182,10 @@ void drawSideBar(Session& session, LayoutState& state, const LayoutActions& acti
             case Tab::Materials:
                 drawMaterialPanel(session, actions.putOn);
                 break;
+            }
+            if (state.scrollTo) {
+                ImGui::SetScrollY(static_cast<float>(*state.scrollTo) * ImGui::GetScrollMaxY());
+                state.scrollTo.reset();
             }
         }
         ImGui::EndChild();
@@ -247,6 +275,16 @@ void drawNotices(Session& session, const ViewportRect& rect, float scale) {
 
 } // namespace
 
+Tab parseTab(std::string_view word) {
+    for (const Named& named : kTabs) {
+        if (named.word == word) {
+            return named.tab;
+        }
+    }
+    throw UsageError(fmt::format("tab '{}'", word), "there is no such tab",
+                     "choose brush, profile, material, light or view");
+}
+
 ViewportRect viewportRect(glm::ivec2 windowPx, const LayoutState& state, float scale) {
     ViewportRect rect;
     if (!state.panelsShown) {
@@ -261,15 +299,18 @@ ViewportRect viewportRect(glm::ivec2 windowPx, const LayoutState& state, float s
     return rect;
 }
 
-void drawLayout(Session& session, LayoutState& state, const LayoutActions& actions,
-                const Viewport& viewport, float scale) {
+void drawLayout(Session& session, LayoutState& state, Preferences& preferences,
+                const LayoutActions& actions, const Viewport& viewport, float scale) {
     if (state.panelsShown) {
-        drawMenu(session, state, actions);
+        drawMenu(session, state, preferences, actions);
         drawSideBar(session, state, actions, viewport, scale);
         drawStatus(session, state, viewport, scale);
     }
     drawNotices(session, viewport.rect(), scale);
     drawHelpWindow(state.helpShown, scale);
+    if (drawPreferencesWindow(preferences, state.preferencesShown, scale)) {
+        actions.preferencesChanged();
+    }
 }
 
 } // namespace celadon::ui

@@ -1,4 +1,7 @@
-// Commands that change materials, and strokes as they happen.
+// Commands that change materials, and strokes as they happen. Whatever changes a material is in the
+// end one command, "paint.edit", which holds everything that it depends on: a replay gives the same
+// bytes whatever the hand held.
+#include "subedit/document/stroke_file.h"
 #include "subedit/errors.h"
 #include "ui/session.h"
 
@@ -8,8 +11,8 @@ namespace celadon::ui {
 
 namespace {
 
-subedit::Document& documentOf(Session& session) {
-    subedit::Document* const document = session.activeDocument();
+subedit::Document& documentOf(Session& session, int material) {
+    subedit::Document* const document = session.document(material);
     if (document == nullptr) {
         throw UsageError("painting", "there is no material to paint on", "open a model first");
     }
@@ -19,7 +22,69 @@ subedit::Document& documentOf(Session& session) {
     return *document;
 }
 
+Command editCommand(int material, const subedit::EditCommand& edit) {
+    return {"paint.edit",
+            {{"material", material}, {"edit", nlohmann::json::parse(subedit::commandText(edit))}}};
+}
+
+/// An edit by the tool in hand, recorded as what it came to.
+void performEdit(Session& session, const subedit::EditCommand& edit) {
+    const subedit::EditReport report = documentOf(session, session.activeMaterial).execute(edit);
+    session.dispatcher().announce(editCommand(session.activeMaterial, edit));
+    session.tell(report);
+    session.touchMaterial();
+}
+
+subedit::SelectMode parseSelectMode(const std::string& word) {
+    for (const auto& [name, mode] : {std::pair{"replace", subedit::SelectMode::Replace},
+                                     std::pair{"add", subedit::SelectMode::Add},
+                                     std::pair{"subtract", subedit::SelectMode::Subtract},
+                                     std::pair{"intersect", subedit::SelectMode::Intersect}}) {
+        if (word == name) {
+            return mode;
+        }
+    }
+    throw UsageError(fmt::format("selection '{}'", word), "there is no such way to combine",
+                     "choose replace, add, subtract or intersect");
+}
+
+subedit::SelectionStep selectionStep(const Arguments& a) {
+    const std::string what = a.text("what");
+    const auto distance = [&a] { return static_cast<float>(a.numberWithin("mm", 1e-3, 1e4)); };
+    if (what == "all") {
+        return subedit::SelectAll{};
+    }
+    if (what == "none") {
+        return subedit::SelectNone{};
+    }
+    if (what == "invert") {
+        return subedit::InvertSelection{};
+    }
+    if (what == "grow") {
+        return subedit::GrowSelection{distance()};
+    }
+    if (what == "shrink") {
+        return subedit::ShrinkSelection{distance()};
+    }
+    if (what == "feather") {
+        return subedit::FeatherSelection{distance()};
+    }
+    throw UsageError(fmt::format("selection '{}'", what), "there is no such step",
+                     "choose all, none, invert, grow, shrink or feather");
+}
+
 } // namespace
+
+void Session::tell(const subedit::EditReport& report) {
+    if (report.grownRadiusMm) {
+        notify(Notice::Kind::Info, fmt::format("Profiles now reach to {:.3g} mm (r_s): the edit "
+                                               "needed more range",
+                                               *report.grownRadiusMm));
+    }
+    if (report.texels > 0 && 4 * report.rangeClamped > report.texels) {
+        notify(Notice::Kind::Warning, "The range is at its limit: most of the edit was clamped");
+    }
+}
 
 void Session::beginStroke(int material, const subedit::StrokePoint& point, bool inverted) {
     subedit::Document* const target = document(material);
@@ -27,19 +92,26 @@ void Session::beginStroke(int material, const subedit::StrokePoint& point, bool 
         return;
     }
     activeMaterial = material;
-    subedit::StrokeCommand stroke;
-    stroke.op = makeOperator(paint, inverted);
-    stroke.brush = paint.brush;
-    stroke.mirror.axes = {paint.mirror[0], paint.mirror[1], paint.mirror[2]};
-    stroke.mirror.centerMm = glm::vec3(mWorld->scatteringSphere.center);
-    stroke.path = {point};
-    target->beginStroke(std::move(stroke));
     mStrokeMaterial = material;
+    mStrokeMirror = {};
+    mStrokeMirror.axes = {paint.mirror[0], paint.mirror[1], paint.mirror[2]};
+    mStrokeMirror.centerMm = glm::vec3(mWorld->scatteringSphere.center);
+    mStroke = {makeOperator(paint, inverted), paint.brush, mStrokeMirror, {point}};
+    mStrokeInverted = inverted;
+    mStrokeSelects = paint.tool == Tool::Select;
+    mStrokeIsLive = !mStrokeSelects && subedit::isLocal(mStroke.op);
+    if (mStrokeIsLive) {
+        target->beginStroke(mStroke);
+    }
     touchMaterial();
 }
 
 void Session::addStrokePoint(const subedit::StrokePoint& point) {
-    if (isStrokeOpen()) {
+    if (!isStrokeOpen()) {
+        return;
+    }
+    mStroke.path.push_back(point);
+    if (mStrokeIsLive) {
         document(mStrokeMaterial)->addStrokePoint(point);
         touchMaterial();
     }
@@ -49,15 +121,29 @@ void Session::endStroke() {
     if (!isStrokeOpen()) {
         return;
     }
-    subedit::Document& target = *document(mStrokeMaterial);
-    mStrokeMaterial = -1;
-    target.endStroke();
+    const int material = std::exchange(mStrokeMaterial, -1);
+    subedit::Document& target = *document(material);
+    subedit::EditCommand edit = mStroke;
+    if (mStrokeSelects) {
+        // While everything is selected, a first stroke chooses.
+        const subedit::WeightMask& now = target.selection();
+        const bool isAll = now == subedit::WeightMask::full(now.width(), now.height());
+        const subedit::SelectMode adding = isAll ? subedit::SelectMode::Replace : paint.selectMode;
+        edit = subedit::SelectCommand{
+            subedit::SelectStroke{mStroke.brush, mStroke.mirror, mStroke.path},
+            mStrokeInverted ? subedit::SelectMode::Subtract : adding};
+    }
+    const subedit::EditReport report = mStrokeIsLive ? target.endStroke() : target.execute(edit);
+    tell(report);
+    mDispatcher.announce(editCommand(material, edit));
     touchMaterial();
 }
 
 void Session::cancelStroke() {
     if (isStrokeOpen()) {
-        document(mStrokeMaterial)->cancelStroke();
+        if (mStrokeIsLive) {
+            document(mStrokeMaterial)->cancelStroke();
+        }
         mStrokeMaterial = -1;
         touchMaterial();
     }
@@ -65,28 +151,64 @@ void Session::cancelStroke() {
 
 void addPaintCommands(Session& session) {
     Dispatcher& commands = session.dispatcher();
+    commands.add("paint.edit", "Any change of a material, as a stroke file has it",
+                 [&session](const Arguments& a) {
+                     const int material = a.integerWithin("material", 0, 64);
+                     const subedit::EditCommand edit =
+                         subedit::parseCommand("paint.edit", a.value("edit").dump());
+                     documentOf(session, material).execute(edit);
+                     session.touchMaterial();
+                 });
     commands.add("edit.undo", "Takes back the last change of the material",
                  [&session](const Arguments&) {
-                     if (documentOf(session).undo()) {
+                     if (documentOf(session, session.activeMaterial).undo()) {
                          session.touchMaterial();
                      }
                  });
     commands.add("edit.redo", "Repeats what was taken back", [&session](const Arguments&) {
-        if (documentOf(session).redo()) {
+        if (documentOf(session, session.activeMaterial).redo()) {
             session.touchMaterial();
         }
     });
-    commands.add("edit.fill", "Applies the operator to everything that is selected",
-                 [&session](const Arguments& a) {
-                     documentOf(session).execute(subedit::ApplyCommand{
-                         makeOperator(session.paint, a.flag("inverted", false))});
-                     session.touchMaterial();
-                 });
     commands.add("material.activate", "Chooses which material is worked on",
                  [&session](const Arguments& a) {
                      session.activeMaterial =
                          a.integerWithin("material", 0, std::max(0, session.materialCount() - 1));
                  });
+    // These depend on what the hand holds: they are recorded as the edit that they come to.
+    commands.add(
+        "edit.fill", "Applies the operator to everything that is selected",
+        [&session](const Arguments& a) {
+            performEdit(session, subedit::ApplyCommand{
+                                     makeOperator(session.paint, a.flag("inverted", false))});
+        },
+        false);
+    commands.add(
+        "select.change", "all, none, invert; grow, shrink, feather by mm along the surface",
+        [&session](const Arguments& a) {
+            performEdit(session, subedit::SelectCommand{selectionStep(a)});
+        },
+        false);
+    commands.add(
+        "select.similar", "Texels whose profile is like that at a point: position and normal",
+        [&session](const Arguments& a) {
+            subedit::SelectSimilar similar;
+            similar.point.positionMm = glm::vec3(a.vector3("position"));
+            similar.point.normal = glm::vec3(a.vector3("normal"));
+            similar.tolerance = static_cast<float>(a.numberWithin("tolerance", 1e-3, 1.0));
+            performEdit(session, subedit::SelectCommand{
+                                     similar, parseSelectMode(a.text("mode", "replace"))});
+        },
+        false);
+    commands.add(
+        "clone.source", "Where clone and pattern strokes take from: position, normal",
+        [&session](const Arguments& a) {
+            subedit::StrokePoint point;
+            point.positionMm = glm::vec3(a.vector3("position"));
+            point.normal = glm::vec3(a.vector3("normal"));
+            session.paint.cloneSource = point;
+        },
+        true);
 }
 
 } // namespace celadon::ui

@@ -5,13 +5,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace celadon::ui {
 
 namespace {
 
-constexpr std::array<PaintOperatorName, 7> kOperators{{
+constexpr std::array<PaintOperatorName, 10> kOperators{{
     {PaintOperator::Profile, "profile", "Profile",
      "Mixes in the primary profile; with Ctrl the secondary one"},
     {PaintOperator::ScaleAlbedo, "scale-albedo", "Lighten",
@@ -25,6 +27,12 @@ constexpr std::array<PaintOperatorName, 7> kOperators{{
      "Gives the effective scattering radius (R_P, mm) set below"},
     {PaintOperator::Shape, "shape", "Shape",
      "Gives the shape of the primary profile; albedo and range stay"},
+    {PaintOperator::Enhance, "enhance", "Contrast",
+     "Makes differences from the neighborhood larger; with Ctrl it smooths them"},
+    {PaintOperator::Clone, "clone", "Clone",
+     "Copies the material from another place: Shift+click there first"},
+    {PaintOperator::Pattern, "pattern", "Pattern",
+     "Copies only the pattern of another place onto this base: Shift+click there first"},
 }};
 
 } // namespace
@@ -61,6 +69,22 @@ subedit::EditOperator makeOperator(const PaintState& state, bool inverted) {
         return subedit::SetRange{state.rangeMm};
     case PaintOperator::Shape:
         return subedit::SetShape{profile};
+    case PaintOperator::Enhance:
+        return subedit::Heterogeneity{inverted ? -std::min(1.0f, std::abs(state.enhanceAmount))
+                                               : state.enhanceAmount,
+                                      state.neighborhoodMm};
+    case PaintOperator::Clone:
+    case PaintOperator::Pattern: {
+        if (!state.cloneSource || !state.cloneTarget) {
+            throw UsageError("clone", "there is no place to copy from",
+                             "Shift+click on the surface first");
+        }
+        const subedit::Placement placement{*state.cloneSource, *state.cloneTarget};
+        if (state.op == PaintOperator::Clone) {
+            return subedit::Clone{placement};
+        }
+        return subedit::TransferPattern{placement, state.neighborhoodMm, 1.0f};
+    }
     }
     return subedit::Mix{profile, state.amount};
 }

@@ -3,9 +3,11 @@
 #include "subedit/edit/edit_operator.h"
 #include "subedit/map/material_map.h"
 #include "subedit/paint/brush.h"
+#include "subedit/select/selection.h"
 
 #include <glm/vec3.hpp>
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,9 +16,10 @@
 namespace celadon::ui {
 
 enum class Tool {
-    Paint,  ///< strokes with the operator
-    Select, ///< strokes that add to the selection
-    Pick    ///< takes the profile under the cursor
+    Paint,   ///< strokes with the operator
+    Select,  ///< strokes whose paint is selection
+    Similar, ///< selects what is like the place that is clicked
+    Pick     ///< takes the profile under the cursor
 };
 
 /// The operators of subedit/edit, as a palette shows them.
@@ -27,7 +30,10 @@ enum class PaintOperator {
     Tint,
     ScaleRange, ///< softer, harder
     SetRange,
-    Shape ///< of the primary profile, albedo and range stay
+    Shape,   ///< of the primary profile, albedo and range stay
+    Enhance, ///< stronger or weaker differences from the neighborhood
+    Clone,   ///< copies from another place
+    Pattern  ///< copies the differences of another place only
 };
 
 struct PaintOperatorName {
@@ -55,10 +61,17 @@ struct PaintState {
     float rangeFactor = 1.5f;             ///< of ScaleRange
     glm::vec3 color{0.85f, 0.35f, 0.25f}; ///< of SetAlbedo (as albedo) and Tint
     glm::vec3 rangeMm{3.0f};              ///< of SetRange
+    float enhanceAmount = 0.6f;           ///< of Enhance; negative smooths
+    float neighborhoodMm = 6.0f;          ///< of Enhance and Pattern
+    float tolerance = 0.12f;              ///< of Similar
+    subedit::SelectMode selectMode = subedit::SelectMode::Add;
+    std::optional<subedit::StrokePoint> cloneSource; ///< of Clone and Pattern
+    std::optional<subedit::StrokePoint> cloneTarget; ///< where the stroke began
     NamedProfile primary;
     NamedProfile secondary;
 };
 
+/// Clone and Pattern need both their places: @throws UsageError
 /// @param inverted the other way: factors become their inverse, Profile takes the secondary
 [[nodiscard]] subedit::EditOperator makeOperator(const PaintState& state, bool inverted);
 

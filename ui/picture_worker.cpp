@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <list>
+#include <map>
 
 namespace celadon::ui {
 
@@ -56,12 +57,15 @@ struct PictureWorker::Renderers {
     std::vector<std::shared_ptr<subedit::MaterialMap>> materials;
     std::shared_ptr<GpuScene> scene;
     std::list<Ready> ready; ///< latest used first
+    float knownLog = 0.0f;  ///< largest ln P of all materials, or more
     std::unique_ptr<ToneMapPass> toneMap;
     std::unique_ptr<ViewModePass> viewMode;
+    std::map<int, gl::Texture> selections; ///< by material
 
     void setWorld(std::shared_ptr<const World> newWorld,
                   std::vector<std::shared_ptr<subedit::MaterialMap>> newMaterials) {
         dropScene();
+        selections.clear();
         world = std::move(newWorld);
         materials = std::move(newMaterials);
         makeScene();
@@ -74,7 +78,26 @@ struct PictureWorker::Renderers {
         scene.reset();
     }
 
+    void apply(const Selection& selection) {
+        gl::Texture texture = gl::Texture::make2d("selection", GL_R8, selection.size);
+        texture.upload(0, std::span<const std::uint8_t>(selection.weights));
+        selections.insert_or_assign(selection.material, std::move(texture));
+    }
+
+    [[nodiscard]] SelectionOverlay overlayFor(const PictureRequest& request,
+                                              const FrameRenderer& renderer) const {
+        const auto found = selections.find(request.overlayMaterial);
+        return found == selections.end()
+                   ? SelectionOverlay{}
+                   : SelectionOverlay{&renderer.view().surfaces(), &found->second,
+                                      request.overlayMaterial};
+    }
+
     void makeScene() {
+        knownLog = subedit::kLogProfileFloor;
+        for (const auto& material : materials) {
+            knownLog = std::max(knownLog, *std::ranges::max_element(material->logProfile));
+        }
         scene = std::make_shared<GpuScene>(*world, frameSettings(Quality::Default));
         toneMap = std::make_unique<ToneMapPass>(scene->shaders);
         viewMode = std::make_unique<ViewModePass>(scene->shaders, scene->materials.count());
@@ -82,12 +105,16 @@ struct PictureWorker::Renderers {
 
     void apply(const std::deque<MaterialPatch>& patches) {
         bool isWhole = false;
+        float largestLog = knownLog;
         for (const MaterialPatch& patch : patches) {
             subedit::MaterialMap& map = *materials[static_cast<std::size_t>(patch.material)];
             if (patch.whole) {
                 map = *patch.whole;
                 isWhole = true;
                 continue;
+            }
+            for (const float value : patch.logProfile) {
+                largestLog = std::max(largestLog, value);
             }
             const float* from = patch.logProfile.data();
             const auto row = static_cast<std::size_t>(patch.rect.width) *
@@ -102,16 +129,22 @@ struct PictureWorker::Renderers {
         if (isWhole) {
             dropScene();
             makeScene();
+        } else if (largestLog > knownLog) {
+            knownLog = largestLog;
+            for (Ready& entry : ready) {
+                entry.renderer->solver().materialsChanged();
+            }
         }
     }
 
-    FrameRenderer& rendererFor(const PictureRequest& request) {
+    FrameRenderer& rendererFor(const PictureRequest& request, bool& isNew) {
         const FrameSettings settings = settingsOf(request);
         const auto found = std::find_if(ready.begin(), ready.end(), [&](const Ready& entry) {
             return entry.sizePx == settings.size && entry.quality == request.rung.quality &&
                    entry.samples == request.rung.samples && entry.specular == request.specular;
         });
-        if (found != ready.end()) {
+        isNew = found == ready.end();
+        if (!isNew) {
             ready.splice(ready.begin(), ready, found);
             return *ready.front().renderer;
         }
@@ -145,6 +178,7 @@ void PictureWorker::setWorld(std::shared_ptr<const World> world,
         mNewWorld = std::move(world);
         mNewMaterials = std::move(materials);
         mPatches.clear();
+        mSelections.clear();
         mRequest.reset();
         mPicture.reset();
         mInterrupt = true;
@@ -155,6 +189,11 @@ void PictureWorker::setWorld(std::shared_ptr<const World> world,
 void PictureWorker::patchMaterial(MaterialPatch patch) {
     const std::lock_guard lock(mMutex);
     mPatches.push_back(std::move(patch));
+}
+
+void PictureWorker::setSelection(int material, glm::ivec2 size, std::vector<std::uint8_t> weights) {
+    const std::lock_guard lock(mMutex);
+    mSelections.push_back({material, size, std::move(weights)});
 }
 
 void PictureWorker::request(PictureRequest request, bool giveUp) {
@@ -197,6 +236,7 @@ void PictureWorker::run() {
         std::shared_ptr<const World> newWorld = std::exchange(mNewWorld, nullptr);
         auto newMaterials = std::exchange(mNewMaterials, {});
         const std::deque<MaterialPatch> patches = std::exchange(mPatches, {});
+        const std::deque<Selection> selections = std::exchange(mSelections, {});
         const std::optional<PictureRequest> request = std::exchange(mRequest, std::nullopt);
         lock.unlock();
         try {
@@ -208,6 +248,9 @@ void PictureWorker::run() {
             }
             if (renderers.scene && !patches.empty()) {
                 renderers.apply(patches);
+            }
+            for (const Selection& selection : selections) {
+                renderers.apply(selection);
             }
             if (renderers.scene && request) {
                 serve(renderers, *request);
@@ -224,11 +267,10 @@ void PictureWorker::run() {
 }
 
 void PictureWorker::serve(Renderers& renderers, const PictureRequest& request) {
-    const auto start = std::chrono::steady_clock::now();
-    FrameRenderer& renderer = renderers.rendererFor(request);
+    Picture picture;
+    FrameRenderer& renderer = renderers.rendererFor(request, picture.isFirst);
     const auto begin = std::chrono::steady_clock::now();
     const gl::Texture* radiance = renderer.draw(request.camera, request.lights, &mInterrupt);
-    Picture picture;
     picture.stages = renderer.takeTimes();
     if (radiance == nullptr) {
         return;
@@ -239,7 +281,8 @@ void PictureWorker::serve(Renderers& renderers, const PictureRequest& request) {
         display.exposureEv = 0.0f;
         display.toneMap = ToneMap::None;
     }
-    const gl::Texture& shown = renderers.toneMap->apply(*radiance, display);
+    const gl::Texture& shown =
+        renderers.toneMap->apply(*radiance, display, renderers.overlayFor(request, renderer));
     picture.revision = request.revision;
     picture.rungIndex = request.rungIndex;
     picture.windowSizePx = request.windowSizePx;
@@ -250,8 +293,6 @@ void PictureWorker::serve(Renderers& renderers, const PictureRequest& request) {
     glGetTextureImage(shown.id(), 0, GL_RGBA, GL_UNSIGNED_BYTE,
                       static_cast<GLsizei>(picture.rgba.size()), picture.rgba.data());
     const auto end = std::chrono::steady_clock::now();
-    // The first frame of a new renderer compiles shaders: that says nothing about the next one.
-    static_cast<void>(start);
     picture.timeMs = std::chrono::duration<double, std::milli>(end - begin).count();
     const std::lock_guard lock(mMutex);
     mPicture = std::move(picture);

@@ -38,6 +38,7 @@ struct PictureRequest {
     bool specular = true;
     WindowDisplay display;
     ViewModeSettings view;
+    int overlayMaterial = -1; ///< whose selection is drawn over the picture
 };
 
 struct Picture {
@@ -46,7 +47,8 @@ struct Picture {
     glm::ivec2 windowSizePx{0};
     glm::ivec2 sizePx{0};
     std::vector<std::uint8_t> rgba; ///< rows from the bottom
-    double timeMs = 0.0;            ///< from request to picture
+    double timeMs = 0.0;
+    bool isFirst = false; ///< of its size and quality: shaders were compiled meanwhile
     StageMilliseconds stages;
 };
 
@@ -78,6 +80,8 @@ public:
                   std::vector<std::shared_ptr<subedit::MaterialMap>> materials);
     /// Texels of the current world's materials, in order.
     void patchMaterial(MaterialPatch patch);
+    /// Weights of a selection as bytes, [height][width] of the material's map.
+    void setSelection(int material, glm::ivec2 size, std::vector<std::uint8_t> weights);
     /// @param giveUp what is being rendered is of no use any more
     void request(PictureRequest request, bool giveUp);
 
@@ -101,6 +105,12 @@ private:
     std::shared_ptr<const World> mNewWorld;
     std::vector<std::shared_ptr<subedit::MaterialMap>> mNewMaterials;
     std::deque<MaterialPatch> mPatches;
+    struct Selection {
+        int material = 0;
+        glm::ivec2 size{0};
+        std::vector<std::uint8_t> weights;
+    };
+    std::deque<Selection> mSelections;
     std::optional<PictureRequest> mRequest;
     std::optional<Picture> mPicture;
     std::optional<std::string> mError;

@@ -38,12 +38,14 @@ void changeProfile(subedit::StoredProfile& profile, const Arguments& a) {
     }
     if (a.has("radius")) {
         const glm::vec3 radius(a.vector3("radius"));
+        glm::vec3 scale(1.0f);
         for (int c = 0; c < 3; ++c) {
             const float now = editor.radiusMm(c, 0.95f);
             if (now > 0.0f && radius[c] > 0.0f) {
-                editor.scaleRange(c, radius[c] / now);
+                scale[c] = radius[c] / now;
             }
         }
+        editor.scaleRange(scale);
     }
     profile.logProfile.assign(editor.result(), editor.result() + layoutOf(profile).values());
 }

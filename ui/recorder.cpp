@@ -18,7 +18,7 @@ void Recorder::write(const Command& command) {
     mStream << formatCommand(command) << '\n' << std::flush;
 }
 
-std::vector<Command> readCommands(const std::filesystem::path& file) {
+std::vector<Command> readCommands(const std::filesystem::path& file, Tail tail) {
     std::ifstream stream(file);
     if (!stream || std::filesystem::is_directory(file)) {
         throw InputError(fmt::format("'{}'", file.string()), "cannot be opened");
@@ -32,6 +32,9 @@ std::vector<Command> readCommands(const std::filesystem::path& file) {
         try {
             commands.push_back(parseCommand(line));
         } catch (const Error& error) {
+            if (tail == Tail::MayBeCut && stream.peek() == std::ifstream::traits_type::eof()) {
+                break;
+            }
             throw InputError(fmt::format("'{}', line {}", file.string(), number), error.what(),
                              "a replay is one JSON object a line, as --record writes it");
         }

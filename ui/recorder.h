@@ -22,7 +22,11 @@ private:
     std::ofstream mStream;
 };
 
+enum class Tail { IsWhole, MayBeCut };
+
+/// @param tail MayBeCut: a last line that cannot be read is left out
 /// @throws InputError naming file and line
-[[nodiscard]] std::vector<Command> readCommands(const std::filesystem::path& file);
+[[nodiscard]] std::vector<Command> readCommands(const std::filesystem::path& file,
+                                                Tail tail = Tail::IsWhole);
 
 } // namespace celadon::ui

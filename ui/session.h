@@ -89,6 +89,8 @@ public:
     void endStroke();
     void cancelStroke();
     [[nodiscard]] bool isStrokeOpen() const { return mStrokeMaterial >= 0; }
+    /// Notices about what an edit ran into.
+    void tell(const subedit::EditReport& report);
     /// After anything that changed a document's content.
     void touchMaterial();
     [[nodiscard]] bool isModified() const { return mMaterialRevision != mSavedRevision; }
@@ -122,7 +124,12 @@ private:
     OpenRequest mOpened;
     std::vector<std::shared_ptr<subedit::MaterialMap>> mRendered;
     std::vector<std::unique_ptr<subedit::Document>> mDocuments;
-    int mStrokeMaterial = -1;
+    int mStrokeMaterial = -1; ///< of the open stroke
+    subedit::StrokeCommand mStroke;
+    subedit::Mirror mStrokeMirror;
+    bool mStrokeInverted = false;
+    bool mStrokeSelects = false; ///< its paint is selection
+    bool mStrokeIsLive = false;  ///< the material follows; else all is done at the end
     std::uint64_t mPictureRevision = 1;
     std::uint64_t mWorldRevision = 0;
     std::uint64_t mMaterialRevision = 0;

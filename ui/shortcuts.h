@@ -37,6 +37,9 @@ enum class Action {
     TurnUp,
     TurnDown,
     Cancel,
+    SelectAll,
+    SelectNone,
+    SelectInvert,
     Select,
     Paint,
     Play

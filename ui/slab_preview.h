@@ -9,15 +9,13 @@
 namespace celadon::ui {
 
 struct SlabLook {
-    glm::vec3 reflected{0.0f};   ///< linear display color, lit evenly from the front
-    glm::vec3 transmitted{0.0f}; ///< the same from behind, eight times brighter
+    glm::vec3 reflected{0.0f};   ///< part of even light from the front that comes back
+    glm::vec3 transmitted{0.0f}; ///< and that comes through
 };
 
-/// A half space of this material sends back A of the light. In a plate of thickness d what would
-/// have come back from deeper than d leaves through the other side instead. Light that returns at
-/// a distance r has been about as deep as r / 2 (the banana of diffuse light), so of the returned
-/// light the part beyond r = 2 d is missing in front, and of it half comes out behind, colored once
-/// more by the way it still has to go.
+/// Kubelka 1948, "New contributions to the optics of intensely light-scattering materials", for two
+/// fluxes: a plate with the reflectance of the half space R = A, and the attenuation that the tail
+/// of the profile shows, P r ~ exp(-sigma r).
 [[nodiscard]] SlabLook lookOfSlab(const subedit::StoredProfile& profile, float thicknessMm);
 
 } // namespace celadon::ui

@@ -118,8 +118,8 @@ void applyTheme(float scale) {
     c[ImGuiCol_ScrollbarGrabHovered] = gray(0.32f);
     c[ImGuiCol_ScrollbarGrabActive] = gray(0.38f);
     c[ImGuiCol_CheckMark] = colors::kAccent;
-    c[ImGuiCol_SliderGrab] = accent(0.75f);
-    c[ImGuiCol_SliderGrabActive] = colors::kAccent;
+    c[ImGuiCol_SliderGrab] = accent(0.40f);
+    c[ImGuiCol_SliderGrabActive] = accent(0.65f);
     c[ImGuiCol_Button] = gray(0.20f);
     c[ImGuiCol_ButtonHovered] = gray(0.26f);
     c[ImGuiCol_ButtonActive] = accent(0.45f);

@@ -2,11 +2,18 @@
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace celadon::ui {
 
 namespace {
+
+/// A selection of everything is what edits act on anyway: it is not shown.
+bool isPartial(const std::vector<std::uint8_t>& weights) {
+    return std::any_of(weights.begin(), weights.end(),
+                       [](std::uint8_t weight) { return weight < 255; });
+}
 
 /// A pause this long is rest: finer pictures begin.
 constexpr std::chrono::milliseconds kRest{120};
@@ -31,8 +38,10 @@ WindowDisplay windowDisplay(const ViewState& view) {
     return display;
 }
 
-Viewport::Viewport(PictureWorker& worker)
-    : mWorker(worker), mFinestRung(static_cast<int>(mLadder.rungs().size()) - 1) {}
+Viewport::Viewport(PictureWorker& worker, double budgetMs)
+    : mWorker(worker),
+      mLadder(budgetMs),
+      mFinestRung(static_cast<int>(mLadder.rungs().size()) - 1) {}
 
 bool Viewport::takePicture(Session& session) {
     if (std::optional<std::string> error = mWorker.takeError()) {
@@ -47,7 +56,10 @@ bool Viewport::takePicture(Session& session) {
         }
         return false;
     }
-    mLadder.measured(picture->rungIndex, picture->windowSizePx, picture->timeMs);
+    if (!picture->isFirst) {
+        mLadder.measured(picture->rungIndex, picture->windowSizePx, picture->timeMs);
+    }
+    ++mPictureCount;
     if (mInFlight && mInFlight->revision == picture->revision &&
         mInFlight->rung == picture->rungIndex) {
         mInFlight.reset();
@@ -69,6 +81,16 @@ void Viewport::passMaterials(Session& session) {
             continue;
         }
         const subedit::DocumentChanges changes = document->takeChanges();
+        if (changes.selectionChanged) {
+            const subedit::WeightMask& selection = document->selection();
+            std::vector<std::uint8_t> weights(static_cast<std::size_t>(selection.width()) *
+                                              static_cast<std::size_t>(selection.height()));
+            selection.forEachNonZero([&](std::size_t texel, subedit::WeightMask::Weight weight) {
+                weights[texel] = static_cast<std::uint8_t>(weight >> 8);
+            });
+            mHasSelection = isPartial(weights);
+            mWorker.setSelection(i, {selection.width(), selection.height()}, std::move(weights));
+        }
         if (changes.layoutChanged) {
             MaterialPatch patch;
             patch.material = i;
@@ -93,6 +115,7 @@ void Viewport::ask(Session& session, int rung) {
     request.specular = session.view.specular;
     request.display = windowDisplay(session.view);
     request.view = session.view.mode;
+    request.overlayMaterial = mHasSelection ? session.activeMaterial : -1;
     const bool giveUp = mInFlight && mLadder.isSlow(mInFlight->rung, mRect.size);
     mInFlight = InFlight{request.revision, rung, mRect.size};
     mWorker.request(std::move(request), giveUp);
@@ -107,6 +130,7 @@ bool Viewport::update(Session& session) {
         mWorker.setWorld(session.sharedWorld(), session.takeRenderedMaterials());
         mInFlight.reset();
         mShownRevision = 0;
+        mHasSelection = false;
         mLadder.forget();
     }
     const bool redraw = takePicture(session);
@@ -149,6 +173,23 @@ double Viewport::secondsToNextStep() const {
 bool Viewport::isSettled(const Session& session) const {
     return session.hasWorld() && !mInFlight && mShownRevision == session.pictureRevision() &&
            mShown.windowSizePx == mRect.size && mShown.rungIndex >= mFinestRung;
+}
+
+std::vector<unsigned char> Viewport::readPixels() const {
+    const glm::ivec2 size = mShown.sizePx;
+    std::vector<unsigned char> rgba(mTexture.texelCount() * 4);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTextureImage(mTexture.id(), 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                      static_cast<GLsizei>(rgba.size()), rgba.data());
+    std::vector<unsigned char> rgb;
+    rgb.reserve(mTexture.texelCount() * 3);
+    for (int y = size.y - 1; y >= 0; --y) {
+        for (int x = 0; x < size.x; ++x) {
+            const auto i = static_cast<std::size_t>(y * size.x + x) * 4;
+            rgb.insert(rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
+        }
+    }
+    return rgb;
 }
 
 void Viewport::draw(ImDrawList& list) const {

@@ -29,7 +29,8 @@ struct ViewportRect {
 
 class Viewport {
 public:
-    explicit Viewport(PictureWorker& worker);
+    /// @param budgetMs what a picture may take while something moves
+    Viewport(PictureWorker& worker, double budgetMs);
 
     void setRect(const ViewportRect& rect) { mRect = rect; }
     [[nodiscard]] const ViewportRect& rect() const { return mRect; }
@@ -40,12 +41,16 @@ public:
     [[nodiscard]] double secondsToNextStep() const;
     void draw(ImDrawList& list) const;
 
+    /// The picture on screen: RGB, rows from the top.
+    [[nodiscard]] std::vector<unsigned char> readPixels() const;
+
     /// Refining stops here.
     void setFinestRung(int rung) { mFinestRung = rung; }
     [[nodiscard]] bool isSettled(const Session& session) const;
     [[nodiscard]] const QualityLadder& ladder() const { return mLadder; }
     [[nodiscard]] int shownRung() const { return mShownRevision != 0 ? mShown.rungIndex : -1; }
     [[nodiscard]] const Picture& shown() const { return mShown; } ///< without pixels
+    [[nodiscard]] std::uint64_t pictureCount() const { return mPictureCount; }
     [[nodiscard]] bool isWaiting() const { return mInFlight.has_value(); }
 
 private:
@@ -66,6 +71,8 @@ private:
     gl::Texture mTexture;
     Picture mShown;
     std::uint64_t mShownRevision = 0;
+    std::uint64_t mPictureCount = 0;
+    bool mHasSelection = false; ///< part of a material is selected: it is shown
     std::uint64_t mWorldRevision = 0;
     std::uint64_t mSeenRevision = 0;
     std::optional<InFlight> mInFlight;

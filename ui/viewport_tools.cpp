@@ -1,5 +1,7 @@
 #include "ui/viewport_tools.h"
 
+#include "subedit/errors.h"
+
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <glm/geometric.hpp>
@@ -206,6 +208,29 @@ void ViewportTools::pressTool(const InputEvent& event, const ViewportRect& rect)
         mSession.perform({"tool.choose", {{"name", "paint"}}});
         return;
     }
+    const bool isShifted = (event.modifiers & GLFW_MOD_SHIFT) != 0;
+    const nlohmann::json place{{"position", toJson(hit->positionMm)},
+                               {"normal", toJson(hit->shadingNormal)}};
+    PaintState& paint = mSession.paint;
+    if (paint.tool == Tool::Similar) {
+        Command select{"select.similar", place};
+        select.arguments["tolerance"] = paint.tolerance;
+        select.arguments["mode"] = isShifted ? "add" : "replace";
+        mSession.activeMaterial = hit->material;
+        mSession.perform(select);
+        return;
+    }
+    const bool isCopying = paint.tool == Tool::Paint &&
+                           (paint.op == PaintOperator::Clone || paint.op == PaintOperator::Pattern);
+    if (isCopying && isShifted) {
+        mSession.perform({"clone.source", place});
+        return;
+    }
+    if (isCopying) {
+        paint.cloneTarget.emplace();
+        paint.cloneTarget->positionMm = glm::vec3(hit->positionMm);
+        paint.cloneTarget->normal = glm::vec3(hit->shadingNormal);
+    }
     mInverted = (event.modifiers & GLFW_MOD_CONTROL) != 0;
     mDrag = Drag::Paint;
     mPaintedPx = event.positionPx;
@@ -230,7 +255,12 @@ bool ViewportTools::paintPoint(glm::dvec2 positionPx, const ViewportRect& rect) 
                             kJump * static_cast<double>(mSession.paint.brush.radiusMm);
     if (!goesOn) {
         mSession.endStroke();
-        mSession.beginStroke(hit->material, point, mInverted);
+        try {
+            mSession.beginStroke(hit->material, point, mInverted);
+        } catch (const Error& error) {
+            mSession.notify(Notice::Kind::Error, error.what());
+            return false;
+        }
     } else {
         mSession.addStrokePoint(point);
     }
@@ -285,7 +315,8 @@ void ViewportTools::adjust(glm::dvec2 positionPx) {
 }
 
 void ViewportTools::drawBrush(ImDrawList& list, const ViewportRect& rect, float scale) {
-    if (!mSession.services().isPaintable || mSession.paint.tool == Tool::Pick) {
+    if (!mSession.services().isPaintable || mSession.paint.tool == Tool::Pick ||
+        mSession.paint.tool == Tool::Similar) {
         return;
     }
     const glm::dvec2 at = mAdjust ? mAdjust->start : mCursor;
@@ -310,9 +341,10 @@ void ViewportTools::drawBrush(ImDrawList& list, const ViewportRect& rect, float 
             glm::dvec3 p =
                 hit->positionMm + radiusMm * (std::cos(angle) * side + std::sin(angle) * other);
             const RayScene* const scene = rays();
-            const auto down = scene->nearest(p + 0.7 * radiusMm * n, -n);
-            if (down && down->distanceMm < 1.4 * radiusMm) {
-                p += (0.7 * radiusMm - down->distanceMm) * n;
+            const double reach = 0.35 * radiusMm;
+            const auto down = scene->nearest(p + reach * n, -n);
+            if (down && down->distanceMm < 2.0 * reach) {
+                p += (reach - down->distanceMm) * n;
             }
             const glm::dvec2 seen = seenAt(mSession.camera, p, rect);
             points[i] = {static_cast<float>(seen.x), static_cast<float>(seen.y)};

@@ -64,7 +64,7 @@ Window::Window(const std::string& title, glm::ivec2 size, double scale) : mTitle
     ImGui::GetIO().LogFilename = nullptr;
     ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;
     installCallbacks();
-    ImGui_ImplGlfw_InitForOpenGL(mWindow, true); // calls ours as well
+    ImGui_ImplGlfw_InitForOpenGL(mWindow, false); // our callbacks call its own
     ImGui_ImplOpenGL3_Init("#version 450");
 }
 
@@ -95,8 +95,10 @@ void Window::installCallbacks() {
             event.button = button;
             event.modifiers = modifiers;
             self.mInput.push_back(event);
+            ImGui_ImplGlfw_MouseButtonCallback(handle, button, action, modifiers);
         });
-    glfwSetScrollCallback(mWindow, [](GLFWwindow* handle, double, double y) {
+    glfwSetScrollCallback(mWindow, [](GLFWwindow* handle, double x, double y) {
+        ImGui_ImplGlfw_ScrollCallback(handle, x, y);
         Window& self = *windowOf(handle);
         self.mHadEvents = true;
         InputEvent event{InputEvent::Kind::Wheel};
@@ -104,17 +106,19 @@ void Window::installCallbacks() {
         event.wheel = y;
         self.mInput.push_back(event);
     });
-    glfwSetKeyCallback(mWindow, [](GLFWwindow* handle, int key, int, int action, int modifiers) {
-        Window& self = *windowOf(handle);
-        self.mHadEvents = true;
-        if (action != GLFW_RELEASE) {
-            InputEvent event{InputEvent::Kind::Key};
-            glfwGetCursorPos(handle, &event.positionPx.x, &event.positionPx.y);
-            event.button = key;
-            event.modifiers = modifiers;
-            self.mInput.push_back(event);
-        }
-    });
+    glfwSetKeyCallback(mWindow,
+                       [](GLFWwindow* handle, int key, int scancode, int action, int modifiers) {
+                           Window& self = *windowOf(handle);
+                           self.mHadEvents = true;
+                           self.mKeys.push_back({key, scancode, action, modifiers});
+                           if (action != GLFW_RELEASE) {
+                               InputEvent event{InputEvent::Kind::Key};
+                               glfwGetCursorPos(handle, &event.positionPx.x, &event.positionPx.y);
+                               event.button = key;
+                               event.modifiers = modifiers;
+                               self.mInput.push_back(event);
+                           }
+                       });
     glfwSetDropCallback(mWindow, [](GLFWwindow* handle, int count, const char** paths) {
         Window& self = *windowOf(handle);
         self.mHadEvents = true;
@@ -123,8 +127,18 @@ void Window::installCallbacks() {
     const auto redraw = [](GLFWwindow* handle) { windowOf(handle)->mHadEvents = true; };
     glfwSetWindowRefreshCallback(mWindow, redraw);
     glfwSetWindowCloseCallback(mWindow, redraw);
-    glfwSetCharCallback(mWindow,
-                        [](GLFWwindow* handle, unsigned) { windowOf(handle)->mHadEvents = true; });
+    glfwSetCharCallback(mWindow, [](GLFWwindow* handle, unsigned character) {
+        windowOf(handle)->mHadEvents = true;
+        ImGui_ImplGlfw_CharCallback(handle, character);
+    });
+    glfwSetWindowFocusCallback(mWindow, [](GLFWwindow* handle, int focused) {
+        windowOf(handle)->mHadEvents = true;
+        ImGui_ImplGlfw_WindowFocusCallback(handle, focused);
+    });
+    glfwSetCursorEnterCallback(mWindow, [](GLFWwindow* handle, int entered) {
+        windowOf(handle)->mHadEvents = true;
+        ImGui_ImplGlfw_CursorEnterCallback(handle, entered);
+    });
     glfwSetFramebufferSizeCallback(
         mWindow, [](GLFWwindow* handle, int, int) { windowOf(handle)->mHadEvents = true; });
 }
@@ -163,8 +177,27 @@ std::vector<std::filesystem::path> Window::takeDroppedFiles() {
     return std::exchange(mDropped, {});
 }
 
+/// ImGui 1.86 looks at the state of keys once a frame: a key that goes down and up between two
+/// frames would be lost. So its release waits for the next frame.
+void Window::passKeys() {
+    std::vector<int> pressed;
+    while (!mKeys.empty()) {
+        const KeyEvent event = mKeys.front();
+        if (std::find(pressed.begin(), pressed.end(), event.key) != pressed.end()) {
+            break;
+        }
+        if (event.action == GLFW_PRESS) {
+            pressed.push_back(event.key);
+        }
+        mKeys.pop_front();
+        ImGui_ImplGlfw_KeyCallback(mWindow, event.key, event.scancode, event.action,
+                                   event.modifiers);
+    }
+}
+
 void Window::beginFrame() {
     mContext->makeCurrent();
+    passKeys();
     if (mFontsStale) {
         loadFonts(mScale);
         applyTheme(mScale);

@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -47,7 +48,7 @@ public:
     void waitEvents(double seconds);
     /// From any thread.
     static void wake();
-    [[nodiscard]] bool hadEvents() const { return mHadEvents; }
+    [[nodiscard]] bool hadEvents() const { return mHadEvents || !mKeys.empty(); }
     void clearHadEvents() { mHadEvents = false; }
     [[nodiscard]] std::vector<InputEvent> takeInput();
     [[nodiscard]] std::vector<std::filesystem::path> takeDroppedFiles();
@@ -65,7 +66,14 @@ public:
     void toggleFullScreen();
 
 private:
+    struct KeyEvent {
+        int key = 0;
+        int scancode = 0;
+        int action = 0;
+        int modifiers = 0;
+    };
     void installCallbacks();
+    void passKeys();
 
     GLFWwindow* mWindow = nullptr;
     GLFWwindow* mWorkerWindow = nullptr;
@@ -76,7 +84,8 @@ private:
     std::string mTitle;
     std::vector<InputEvent> mInput;
     std::vector<std::filesystem::path> mDropped;
-    glm::ivec4 mWindowed{0}; ///< place and size before full screen
+    std::deque<KeyEvent> mKeys; ///< not yet passed to ImGui
+    glm::ivec4 mWindowed{0};    ///< place and size before full screen
 };
 
 } // namespace celadon::ui

@@ -89,7 +89,7 @@ void runFit(const FitOptions& options) {
     const FitError error = measureFit(curves, fitted);
     for (int channel = 0; channel < 3; ++channel) {
         const double total = curves[static_cast<std::size_t>(channel)].total;
-        if (std::abs(error.albedo[channel]) > kAlbedoTolerance * total) {
+        if (std::abs(error.albedo[channel]) > kAlbedoTolerance * std::max(total, 1e-6)) {
             log::warning("'{}': the albedo of {} is off by {:.2g}", options.input,
                          channelName(channel), error.albedo[channel]);
         }

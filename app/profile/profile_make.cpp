@@ -1,3 +1,4 @@
+#include "app/log.h"
 #include "app/option_takers.h"
 #include "app/plot/write_plot.h"
 #include "app/profile/profile_commands.h"
@@ -5,6 +6,7 @@
 #include "app/profile/profile_source.h"
 #include "subedit/errors.h"
 #include "subedit/map/material_file.h"
+#include "subedit/medium.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -88,9 +90,24 @@ void writeFigure(const MakeOptions& options, const MadeProfile& made, double max
     plot::writePlot(options.output, drawProfiles({profile}, settings));
 }
 
+/// Diffusion models may return more light than they take where next to nothing absorbs.
+void warnOfExcess(const MadeProfile& made) {
+    for (int channel = 0; channel < 3; ++channel) {
+        const double total = made.curves[static_cast<std::size_t>(channel)].total;
+        // A random walk's total is known to its standard error only.
+        if (!made.walk && total > 1.0 + 1e-3) {
+            log::warning(
+                "the model returns {:.4g} of the {} light: more than it takes; monte-carlo "
+                "and normalized-diffusion do not",
+                total, channelName(channel));
+        }
+    }
+}
+
 void runMake(const MakeOptions& options) {
     checkOutput(options.output, {".csv", ".subedit.exr", ".exr", ".png", ".svg"});
     const MadeProfile made = makeProfile(options.model, options.medium, "profile make");
+    warnOfExcess(made);
     const FitSettings settings{options.segments, options.maxRadiusMm};
     const double maxRadiusMm = chooseMaxRadiusMm(made.curves, settings);
     if (options.output.empty() || hasEnding(options.output, ".csv")) {

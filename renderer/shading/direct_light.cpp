@@ -18,7 +18,8 @@ DirectLight::DirectLight(const gl::ShaderLibrary& shaders, const SplattingBuffer
       mShade("direct light", shaders, {"fullscreen.vert", "direct_light.frag"}) {}
 
 void DirectLight::shade(std::span<const Light> lights, const BoundingSphere& sceneSphere,
-                        const GpuWorld& world, const SplattingBuffer& view, bool specular) {
+                        const GpuWorld& world, const SplattingBuffer& view, bool specular,
+                        bool shadows) {
     const gl::DebugGroup group("direct light");
     mRadiance.clear(0, glm::vec4(0.0f));
     for (const Light& light : lights) {
@@ -33,7 +34,9 @@ void DirectLight::shade(std::span<const Light> lights, const BoundingSphere& sce
             shadowState.depthClamp = true;
             shadowState.apply();
             mShadowFramebuffer.clearDepth(0.0f);
-            world.draw(mShadow, false);
+            if (shadows) {
+                world.draw(mShadow, false);
+            }
 
             gl::PassState state = gl::PassState::covering(mFramebuffer);
             state.blend = gl::Blend::Additive;

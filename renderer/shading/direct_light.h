@@ -21,7 +21,7 @@ public:
 
     /// Replaces the radiance by that of the given lights. The frame block is bound.
     void shade(std::span<const Light> lights, const BoundingSphere& sceneSphere,
-               const GpuWorld& world, const SplattingBuffer& view, bool specular);
+               const GpuWorld& world, const SplattingBuffer& view, bool specular, bool shadows);
 
     /// RGBA32F, frame size: W/m^2/sr towards the eye.
     [[nodiscard]] const gl::Texture& radiance() const { return mRadiance; }

@@ -9,9 +9,11 @@ namespace celadon {
 
 ToneMapPass::ToneMapPass(const gl::ShaderLibrary& shaders)
     : mNoAttributes("no attributes"),
+      mWeightSampler("selection", gl::Filter::Linear, gl::Wrap::Repeat),
       mProgram("tone map", shaders, {"fullscreen.vert", "tone_map.frag"}) {}
 
-const gl::Texture& ToneMapPass::apply(const gl::Texture& radiance, const WindowDisplay& settings) {
+const gl::Texture& ToneMapPass::apply(const gl::Texture& radiance, const WindowDisplay& settings,
+                                      const SelectionOverlay& overlay) {
     const gl::DebugGroup group("tone map");
     if (!mDisplay || mDisplay.size2d() != radiance.size2d()) {
         mDisplay = gl::Texture::make2d("display", GL_RGBA8, radiance.size2d());
@@ -22,9 +24,17 @@ const gl::Texture& ToneMapPass::apply(const gl::Texture& radiance, const WindowD
     mProgram.set(0, glm::vec2(std::exp2(settings.exposureEv), float(settings.toneMap)));
     mProgram.set(1, settings.backgroundTop);
     mProgram.set(2, settings.backgroundBottom);
+    const bool hasOverlay = overlay.surfaces != nullptr && overlay.weights != nullptr;
+    mProgram.set(3, hasOverlay ? overlay.material : -1);
     radiance.bind(0);
+    gl::Sampler::unbind(0);
+    (hasOverlay ? *overlay.surfaces : radiance).bind(1);
+    gl::Sampler::unbind(1);
+    (hasOverlay ? *overlay.weights : radiance).bind(2);
+    mWeightSampler.bind(2);
     mNoAttributes.bind();
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    gl::Sampler::unbind(2);
     return mDisplay;
 }
 

@@ -2,6 +2,7 @@
 
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/program.h"
+#include "renderer/gl/sampler.h"
 #include "renderer/gl/shader_library.h"
 #include "renderer/gl/texture.h"
 #include "renderer/gl/vertex_array.h"
@@ -19,18 +20,27 @@ struct WindowDisplay {
     glm::vec3 backgroundBottom{0.0f};
 };
 
+/// A selection drawn over the picture: stripes where texels are selected.
+struct SelectionOverlay {
+    const gl::Texture* surfaces = nullptr; ///< of the splatting buffer; null: no overlay
+    const gl::Texture* weights = nullptr;  ///< R8 over the map
+    int material = -1;
+};
+
 class ToneMapPass {
 public:
     explicit ToneMapPass(const gl::ShaderLibrary& shaders);
 
     /// @param radiance RGBA32F, premultiplied, linear
     /// @return RGBA8 of the same size, sRGB encoded, opaque; valid until the next call
-    const gl::Texture& apply(const gl::Texture& radiance, const WindowDisplay& settings);
+    const gl::Texture& apply(const gl::Texture& radiance, const WindowDisplay& settings,
+                             const SelectionOverlay& overlay = {});
 
 private:
     gl::Texture mDisplay;
     gl::Framebuffer mFramebuffer;
     gl::VertexArray mNoAttributes;
+    gl::Sampler mWeightSampler;
     gl::Program mProgram;
 };
 

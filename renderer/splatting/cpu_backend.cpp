@@ -87,10 +87,7 @@ void CpuBackend::add(const SolveInput& input, const LightView& lightView, gl::St
         buildTree(lightView, input);
     }
     const int levels = input.view.levels();
-    for (int k = 0; k < levels; ++k) {
-        if (input.isInterrupted()) {
-            return;
-        }
+    for (int k = 0; k < levels && !input.isInterrupted(); ++k) {
         const auto scope = timer.measure("splatting " + std::to_string(k));
         ViewLevel& level = mView[static_cast<std::size_t>(k)];
         const ViewTexels texels{mExitance.size2d(k), level.positions.data(), level.surfaces.data(),

@@ -21,6 +21,7 @@ public:
     void begin(const SolveInput& input) override;
     void add(const SolveInput& input, const LightView& lightView, gl::StageTimer& timer) override;
     void finish() override;
+    void materialsChanged() override { mMaterials.update(); }
     [[nodiscard]] gl::Texture& exitance() override { return mExitance; }
     void count(FrameStats& statistics) override;
 

@@ -44,10 +44,7 @@ void RasterBackend::add(const SolveInput& input, const LightView& lightView,
     }
     const NodeProfiles* profiles = mProfiles ? &*mProfiles : nullptr;
     const NodeBalls* balls = mBalls ? &*mBalls : nullptr;
-    for (int k = 0; k < input.view.levels(); ++k) {
-        if (input.isInterrupted()) {
-            return;
-        }
+    for (int k = 0; k < input.view.levels() && !input.isInterrupted(); ++k) {
         if (k == 0 || balls != nullptr) {
             const auto scope = timer.measure("selection");
             mSelection.select(mIrradiance, balls, k);

@@ -19,6 +19,9 @@ public:
     /// After the last light view: exitance() is complete.
     virtual void finish() {}
 
+    /// Texels of the materials were edited in place, and some P is larger than any was.
+    virtual void materialsChanged() {}
+
     /// RGBA32F with the levels of the splatting buffer: B^k in W/m^2; alpha sums up to the pairs.
     [[nodiscard]] virtual gl::Texture& exitance() = 0;
 

@@ -84,10 +84,10 @@ const gl::Texture& SplattingSolver::solve(const SolveInput& input, gl::StageTime
         for (const LightView& lightView :
              makeLightViews(light, input.world.scatteringSphere, input.world.sceneSphere,
                             mSettings.irradianceSize)) {
-            mBackend->add(input, lightView, timer);
             if (input.isInterrupted()) {
                 return mBackend->exitance();
             }
+            mBackend->add(input, lightView, timer);
             if (mCollect) {
                 mBackend->count(mStatistics);
             }

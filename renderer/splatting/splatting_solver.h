@@ -28,6 +28,7 @@ public:
     [[nodiscard]] int viewLevels() const override { return viewLevels(mSettings); }
     const gl::Texture& solve(const SolveInput& input, gl::StageTimer& timer) override;
     void report(FrameStats& stats) override;
+    void materialsChanged() override { mBackend->materialsChanged(); }
 
     /// The raster backend and its buffers, for tests and views that explain; else null.
     [[nodiscard]] RasterBackend* raster() { return dynamic_cast<RasterBackend*>(mBackend.get()); }

@@ -14,15 +14,15 @@ namespace celadon::subedit {
 
 namespace {
 
-/// Neighboring tiles of a row become one rectangle.
-std::vector<TexelRect> mergeTiles(const WeightMask& tiles, const std::vector<bool>& isChanged) {
+/// Neighbors in a row of tiles become one rectangle where they are as high.
+std::vector<TexelRect> merged(const std::vector<TexelRect>& rectOfTile) {
     std::vector<TexelRect> rects;
-    for (int t = 0; t < tiles.tileCount(); ++t) {
-        if (!isChanged[static_cast<std::size_t>(t)]) {
+    for (const TexelRect& rect : rectOfTile) {
+        if (rect.isEmpty()) {
             continue;
         }
-        const TexelRect rect = tiles.tileRect(t);
-        if (!rects.empty() && rects.back().y == rect.y && rects.back().right() == rect.x) {
+        if (!rects.empty() && rects.back().y == rect.y && rects.back().height == rect.height &&
+            rects.back().right() == rect.x) {
             rects.back().width += rect.width;
         } else {
             rects.push_back(rect);
@@ -89,7 +89,7 @@ Document::Document(MaterialMap material, std::shared_ptr<const Surface> surface,
       mSettings(settings),
       mLargestRadiusMm(largestRadiusMm(layoutOf(*mMaterial))),
       mSelection(WeightMask::full(mMaterial->width, mMaterial->height)),
-      mChangedTiles(static_cast<std::size_t>(mSelection.tileCount()), false) {
+      mChanged(static_cast<std::size_t>(mSelection.tileCount())) {
     CELADON_ASSERT(mSurface->width() == mMaterial->width &&
                    mSurface->height() == mMaterial->height);
 }
@@ -99,18 +99,24 @@ float* Document::texelData(std::size_t texel) {
 }
 
 void Document::markTile(int tile) {
-    mChangedTiles[static_cast<std::size_t>(tile)] = true;
+    mChanged[static_cast<std::size_t>(tile)] = mSelection.tileRect(tile);
+}
+
+void Document::markTexel(int tile, int x, int y) {
+    TexelRect& rect = mChanged[static_cast<std::size_t>(tile)];
+    rect = unite(rect, {x, y, 1, 1});
 }
 
 void Document::markAll() {
-    std::fill(mChangedTiles.begin(), mChangedTiles.end(), true);
+    for (int t = 0; t < mSelection.tileCount(); ++t) {
+        markTile(t);
+    }
 }
 
 DocumentChanges Document::takeChanges() {
-    DocumentChanges changes{mergeTiles(mSelection, mChangedTiles),
-                            std::exchange(mLayoutChanged, false),
+    DocumentChanges changes{merged(mChanged), std::exchange(mLayoutChanged, false),
                             std::exchange(mSelectionChanged, false)};
-    std::fill(mChangedTiles.begin(), mChangedTiles.end(), false);
+    std::fill(mChanged.begin(), mChanged.end(), TexelRect{});
     return changes;
 }
 

@@ -113,11 +113,11 @@ private:
     float evaluateTiles(const PreparedOperator& prepared, Entry& entry);
     void grow(const ProfileLayout& to, Entry& entry);
     void markTile(int tile);
+    void markTexel(int tile, int x, int y);
     void markAll();
     [[nodiscard]] float* texelData(std::size_t texel);
 
     // The stroke in hand (document_stroke.cpp).
-    void backUpTiles(std::span<const std::size_t> texels);
     float evaluateStroke(std::span<const std::size_t> texels);
     void restoreStroke();
 
@@ -145,7 +145,7 @@ private:
     std::size_t mBeforeBytes = 0; ///< of all profiles that entries keep
     std::unique_ptr<OpenStroke> mStroke;
 
-    std::vector<bool> mChangedTiles;
+    std::vector<TexelRect> mChanged; ///< within each tile
     bool mLayoutChanged = false;
     bool mSelectionChanged = false;
 };

@@ -74,7 +74,6 @@ void Document::commit(std::unique_ptr<Entry> entry) {
 }
 
 void Document::trim() {
-    mTrimmed = std::min(mTrimmed, mDone);
     for (; mTrimmed < mDone && mBeforeBytes > mSettings.historyBytes; ++mTrimmed) {
         Entry& entry = *mHistory[mTrimmed];
         mBeforeBytes -= entry.beforeBytes();
@@ -182,8 +181,9 @@ void Document::complete(std::size_t index, TileBefore& wanted) const {
                 state[cell].assign(starts[cell].values, starts[cell].values + layout.values());
             }
         }
-        if (e == index || entry.isSelection() || entry.mask.tile(tile) == nullptr) {
-            continue;
+        if (e == index || entry.isSelection() || entry.mask.tile(tile) == nullptr ||
+            !isLocal(*operatorOf(entry.command))) {
+            continue; // what follows an operator that looks around has been kept
         }
         const PreparedOperator prepared(*operatorOf(entry.command), layout, mLargestRadiusMm,
                                         *mSurface, nothing);
@@ -251,7 +251,7 @@ bool Document::undo() {
     Entry& entry = *mHistory[mDone - 1];
     if (entry.isSelection()) {
         setSelection(entry.selectionBefore);
-        --mDone;
+        mTrimmed = std::min(mTrimmed, --mDone);
         return true;
     }
     mBeforeBytes -= entry.beforeBytes();
@@ -270,7 +270,7 @@ bool Document::undo() {
     undoGrowths(entry);
     entry.before.clear(); // doing it again saves them again
     entry.growth.clear();
-    --mDone;
+    mTrimmed = std::min(mTrimmed, --mDone);
     return true;
 }
 

@@ -17,8 +17,7 @@ Document::OpenStroke::OpenStroke(Document& document, StrokeCommand strokeCommand
     : owner(document),
       command(std::move(strokeCommand)),
       dabs(document.surface(), command.brush, command.mirror),
-      backup(static_cast<std::size_t>(document.mSelection.tileCount())),
-      outcomes(backup.size()) {
+      tiles(static_cast<std::size_t>(document.mSelection.tileCount())) {
     entry.mask = WeightMask(document.material().width, document.material().height);
     prepare();
 }
@@ -33,21 +32,38 @@ const float* Document::OpenStroke::profile(Surface::Texel texel) const {
     const int x = static_cast<int>(texel % width);
     const int y = static_cast<int>(texel / width);
     const std::size_t values = layoutOf(owner.material()).values();
-    const int tile = entry.mask.tileOf(x, y);
-    const std::vector<float>& saved = backup[static_cast<std::size_t>(tile)];
-    if (saved.empty()) {
-        return owner.material().logProfile.data() + texel * values;
+    const Tile* tile = tiles[static_cast<std::size_t>(entry.mask.tileOf(x, y))].get();
+    const std::size_t cell = WeightMask::cell(x, y);
+    return tile != nullptr && tile->saved[cell]
+               ? tile->values.get() + cell * values
+               : owner.material().logProfile.data() + texel * values;
+}
+
+void Document::OpenStroke::save(std::size_t texel) {
+    const auto width = static_cast<std::size_t>(owner.material().width);
+    const int x = static_cast<int>(texel % width);
+    const int y = static_cast<int>(texel / width);
+    const std::size_t values = layoutOf(owner.material()).values();
+    const int index = entry.mask.tileOf(x, y);
+    owner.markTexel(index, x, y);
+    std::unique_ptr<Tile>& tile = tiles[static_cast<std::size_t>(index)];
+    if (tile == nullptr) {
+        tile = std::make_unique<Tile>();
+        tile->values = std::make_unique_for_overwrite<float[]>(tile->saved.size() * values);
     }
-    const TexelRect rect = entry.mask.tileRect(tile);
-    return saved.data() +
-           static_cast<std::size_t>((y - rect.y) * rect.width + (x - rect.x)) * values;
+    const std::size_t cell = WeightMask::cell(x, y);
+    if (!tile->saved[cell]) {
+        tile->saved[cell] = true;
+        std::copy_n(owner.texelData(texel), values, tile->values.get() + cell * values);
+    }
 }
 
 std::uint8_t& Document::OpenStroke::outcome(std::size_t texel) {
     const auto width = static_cast<std::size_t>(owner.material().width);
     const int x = static_cast<int>(texel % width);
     const int y = static_cast<int>(texel / width);
-    return (*outcomes[static_cast<std::size_t>(entry.mask.tileOf(x, y))])[WeightMask::cell(x, y)];
+    return tiles[static_cast<std::size_t>(entry.mask.tileOf(x, y))]
+        ->outcome[WeightMask::cell(x, y)];
 }
 
 void Document::beginStroke(StrokeCommand stroke) {
@@ -77,49 +93,26 @@ void Document::addStrokePoint(const StrokePoint& point) {
             texels.insert(texels.end(), gutter.begin(), gutter.end());
         }
     }
-    backUpTiles(texels);
     float neededMm = evaluateStroke(texels);
     while (const auto grown = grownLayout(layoutOf(*mMaterial), neededMm, mLargestRadiusMm)) {
         restoreStroke();
         grow(*grown, mStroke->entry);
-        std::fill(mStroke->backup.begin(), mStroke->backup.end(), std::vector<float>());
+        for (auto& tile : mStroke->tiles) {
+            tile.reset();
+        }
         mStroke->prepare();
         texels.clear();
         mStroke->entry.mask.forEachNonZero(
             [&](std::size_t texel, auto) { texels.push_back(texel); });
-        backUpTiles(texels);
         neededMm = evaluateStroke(texels);
-    }
-}
-
-/// Copies the tiles of these texels that the stroke has not touched before.
-void Document::backUpTiles(std::span<const std::size_t> texels) {
-    const std::size_t values = layoutOf(*mMaterial).values();
-    const auto width = static_cast<std::size_t>(mMaterial->width);
-    for (const std::size_t texel : texels) {
-        const int tile =
-            mSelection.tileOf(static_cast<int>(texel % width), static_cast<int>(texel / width));
-        markTile(tile);
-        std::vector<float>& backup = mStroke->backup[static_cast<std::size_t>(tile)];
-        if (!backup.empty()) {
-            continue;
-        }
-        const TexelRect rect = mSelection.tileRect(tile);
-        backup.reserve(rect.texels() * values);
-        for (int y = rect.y; y < rect.bottom(); ++y) {
-            const float* row =
-                texelData(static_cast<std::size_t>(y) * width + static_cast<std::size_t>(rect.x));
-            backup.insert(backup.end(), row, row + static_cast<std::size_t>(rect.width) * values);
-        }
-        auto& outcomes = mStroke->outcomes[static_cast<std::size_t>(tile)];
-        if (outcomes == nullptr) {
-            outcomes = std::make_unique<OpenStroke::Outcomes>();
-        }
     }
 }
 
 /// @return the r_s that the texels need
 float Document::evaluateStroke(std::span<const std::size_t> texels) {
+    for (const std::size_t texel : texels) {
+        mStroke->save(texel);
+    }
     std::mutex mutex;
     float neededMm = 0.0f;
     tbb::enumerable_thread_specific<PreparedOperator::Worker> workers(

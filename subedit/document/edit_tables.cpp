@@ -2,6 +2,8 @@
 
 #include "subedit/radius_map.h"
 
+#include <tbb/parallel_for.h>
+
 namespace celadon::subedit {
 
 EditTables::EditTables(const MaterialMap& map, double energyFraction, double epsilon)
@@ -10,13 +12,14 @@ EditTables::EditTables(const MaterialMap& map, double energyFraction, double eps
 }
 
 void EditTables::update(const MaterialMap& map, std::span<const TexelRect> rects) {
-    for (const TexelRect& rect : rects) {
-        if (!rect.isEmpty()) {
-            updateEffectiveRadiusMap(map, rect, mEnergyFraction, mRadius);
-            mSums->update(map, mRadius, rect);
-            mRangeTable.reset();
-        }
+    if (rects.empty()) {
+        return;
     }
+    tbb::parallel_for(std::size_t{0}, rects.size(), [&](std::size_t i) {
+        updateEffectiveRadiusMap(map, rects[i], mEnergyFraction, mRadius);
+    });
+    mSums->update(map, mRadius, rects);
+    mRangeTable.reset();
 }
 
 void EditTables::rebuild(const MaterialMap& map) {

@@ -16,19 +16,23 @@ struct Document::OpenStroke : ProfileSource {
     /// The operator for the map's layout as it is now.
     void prepare();
     [[nodiscard]] const float* profile(Surface::Texel texel) const override;
+    /// Saves a texel that it has not touched yet.
+    void save(std::size_t texel);
     [[nodiscard]] std::uint8_t& outcome(std::size_t texel);
-
-    using Outcomes = std::array<std::uint8_t, WeightMask::kTileSize * WeightMask::kTileSize>;
 
     Document& owner;
     StrokeCommand command;
     StrokeMask dabs;
     Entry entry; ///< its mask and growth so far
-    /// Whole tiles as they were before the stroke, [rows][columns][knots][3], of those that it has
-    /// touched.
-    std::vector<std::vector<float>> backup;
-    /// Of each texel of a touched tile: 1 energy clamped, 2 range clamped.
-    std::vector<std::unique_ptr<Outcomes>> outcomes;
+    /// What the stroke has touched of a tile, as it was before.
+    struct Tile {
+        TileBits saved;
+        /// Room for all its texels, so that none ever moves; memory is taken only by those saved.
+        std::unique_ptr<float[]> values;
+        std::array<std::uint8_t, WeightMask::kTileSize * WeightMask::kTileSize>
+            outcome; ///< 1 energy clamped, 2 range clamped
+    };
+    std::vector<std::unique_ptr<Tile>> tiles;
     std::unique_ptr<PreparedOperator> prepared;
 };
 

@@ -24,6 +24,7 @@ using nlohmann::json;
 constexpr const char* kFormat = "celadon-strokes";
 constexpr int kVersion = 1;
 constexpr int kDeepest = 32;
+constexpr double kLargestMap = 8192;
 
 constexpr double kFarthestMm = 1e7;
 constexpr Limits kAnywhere{-kFarthestMm, kFarthestMm};
@@ -52,8 +53,15 @@ public:
             const JsonReader surface = root.object("surface");
             if (surface.has("model")) {
                 file.surface.model = surface.text("model");
-            } else {
+            } else if (surface.has("flatWidthMm")) {
                 file.surface.flatWidthMm = surface.number("flatWidthMm", kLengthMm);
+            }
+            if (surface.has("texels")) {
+                const glm::vec2 texels = surface.vec2("texels", {1.0, kLargestMap});
+                file.surface.texels = glm::ivec2(texels);
+                if (glm::vec2(*file.surface.texels) != texels) {
+                    surface.fail("texels", "are not whole numbers");
+                }
             }
             surface.finish();
         }
@@ -541,6 +549,9 @@ std::string strokeFileText(const StrokeFile& file) {
         surface["model"] = *file.surface.model;
     } else {
         surface["flatWidthMm"] = wide(file.surface.flatWidthMm);
+    }
+    if (file.surface.texels) {
+        surface["texels"] = json::array({file.surface.texels->x, file.surface.texels->y});
     }
     // A command a line: readable, and small changes are small differences.
     std::string text = fmt::format("{{\"format\": \"{}\", \"version\": {}, \"surface\": {},\n"

@@ -2,6 +2,8 @@
 
 #include "subedit/document/edit_command.h"
 
+#include <glm/vec2.hpp>
+
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -19,6 +21,8 @@ namespace celadon::subedit {
 struct StrokeSurface {
     std::optional<std::string> model; ///< as given on the command line; else flat:
     float flatWidthMm = 100.0f;       ///< makeFlatSurface()
+    /// Size of the map that was painted on, where the material had to be enlarged for it.
+    std::optional<glm::ivec2> texels = {};
     bool operator==(const StrokeSurface&) const = default;
 };
 

@@ -3,6 +3,8 @@
 #include "subedit/assert.h"
 #include "subedit/errors.h"
 #include "subedit/fast_exp.h"
+#include "subedit/fast_log.h"
+#include "subedit/multiversion.h"
 #include "subedit/paint/stroke_mask.h"
 
 #include <fmt/format.h>
@@ -26,6 +28,15 @@ glm::mat3 turnAbout(const glm::vec3& axis, float sine, float cosine) {
     const glm::mat3 cross(glm::vec3(0.0f, axis.z, -axis.y), glm::vec3(-axis.z, 0.0f, axis.x),
                           glm::vec3(axis.y, -axis.x, 0.0f));
     return glm::mat3(1.0f) + sine * cross + (1.0f - cosine) * (cross * cross);
+}
+
+/// ln((1 - a) e^p + a e^q), both terms in units of the larger so that neither is lost.
+CELADON_MULTIVERSION void mixLogs(float* __restrict p, const float* __restrict q, float a,
+                                  int count) {
+    for (int i = 0; i < count; ++i) {
+        const float top = p[i] > q[i] ? p[i] : q[i];
+        p[i] = top + fastLog((1.0f - a) * fastExp(p[i] - top) + a * fastExp(q[i] - top));
+    }
 }
 
 /// The smallest turn that brings one unit vector onto another.
@@ -108,14 +119,12 @@ struct OperatorVisitor {
         }
         editor.measure();
         // Interpolation and knots move R_P a little: back to where it was.
+        glm::vec3 back(1.0f);
         for (int c = 0; c < 3; ++c) {
             const float moved = editor.radiusMm(c, kRadiusEnergy);
-            if (radius[c] > 0.0f && moved > 0.0f) {
-                editor.setAlbedo(c, albedo[c]);
-                editor.scaleRange(c, radius[c] / moved);
-                editor.measure();
-            }
+            back[c] = radius[c] > 0.0f && moved > 0.0f ? radius[c] / moved : 1.0f;
         }
+        editor.scaleRange(back);
         setAlbedo(albedo);
         limitNeed();
     }
@@ -191,12 +200,7 @@ struct OperatorVisitor {
             clampAlbedo(); // and not a bit is changed otherwise
             return;
         }
-        for (std::size_t i = 0; i < count; ++i) {
-            // Both terms in units of the larger, so that neither e^-30 nor its square is lost.
-            const float top = std::max(values[i], q[i]);
-            values[i] =
-                top + std::log((1.0f - a) * fastExp(values[i] - top) + a * fastExp(q[i] - top));
-        }
+        mixLogs(values, q, a, static_cast<int>(count));
         editor.measure();
         setAlbedo(albedo);
     }
@@ -212,9 +216,8 @@ struct OperatorVisitor {
                 }
                 outcome.neededRadiusMm = std::max(outcome.neededRadiusMm, scale[c] * held);
             }
-            editor.scaleRange(c, scale[c]);
-            editor.measure();
         }
+        editor.scaleRange(scale);
         setAlbedo(albedo);
     }
 

@@ -1,13 +1,44 @@
 #include "subedit/edit/profile_editor.h"
 
 #include "subedit/assert.h"
+#include "subedit/fast_exp.h"
+#include "subedit/fast_log.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace celadon::subedit {
 
 namespace {
+
+/// ln of the energy of the first segment in units of h^2: e^l0 M_1(l1 - l0) of log_linear.h.
+float logFirstEnergy(float l0, float l1) {
+    const float z = l1 - l0;
+    float moment = 0.0f;
+    if (std::abs(z) < 0.5f) {
+        moment = 1.0f / 2 +
+                 z * (1.0f / 3 + z * (1.0f / 8 + z * (1.0f / 30 + z * (1.0f / 144 + z / 840))));
+    } else {
+        const float e = fastExp(z);
+        moment = (e - (e - 1.0f) / z) / z;
+    }
+    return l0 + fastLog(moment);
+}
+
+/// The l0 of a given logFirstEnergy(), which grows with it.
+float solveFirstKnot(float l0, float l1, float logEnergy) {
+    float value = logFirstEnergy(l0, l1) - logEnergy;
+    float slope = 0.7f;
+    for (int i = 0; i < 8 && std::abs(value) > 1e-6f; ++i) {
+        const float step = std::clamp(-value / slope, -4.0f, 4.0f);
+        const float next = logFirstEnergy(l0 + step, l1) - logEnergy;
+        slope = std::clamp((next - value) / step, 0.2f, 1.0f); // secant; bounds of the true slope
+        l0 += step;
+        value = next;
+    }
+    return l0;
+}
 
 /// Shape of a texel that never scattered, r_s / (its 1/e length).
 constexpr float kDefaultLengths = 8.0f;
@@ -45,6 +76,12 @@ std::vector<float> resampleProfile(const StoredProfile& profile, const ProfileLa
     result.measure();
     for (int c = 0; c < 3; ++c) {
         if (!result.isBlack(c)) {
+            result.fitFirstKnot(c, source.albedo()[c]);
+        }
+    }
+    result.measure();
+    for (int c = 0; c < 3; ++c) {
+        if (!result.isBlack(c)) {
             result.setAlbedo(c, source.albedo()[c]);
         }
     }
@@ -74,11 +111,13 @@ void ProfileEditor::measure() {
     for (int c = 0; c < 3; ++c) {
         mAlbedo[c] = mEnergy.albedo(c, mLayout.spacingMm());
     }
-    mIsMeasured = true;
 }
 
 float ProfileEditor::radiusMm(int channel, float fraction) const {
-    CELADON_ASSERT(mIsMeasured);
+    if (isBlack(channel)) {
+        return 0.0f;
+    }
+    // Energies may have been measured before setAlbedo() scaled them: their ratios are the same.
     const float h = mLayout.spacingMm();
     return h * mEnergy.channelRadius(mValues.data(), channel, fraction, TexelEnergy::blackTotal(h));
 }
@@ -91,7 +130,6 @@ void ProfileEditor::setAlbedo(int channel, float albedo) {
             values[k * 3] = kLogProfileFloor;
         }
         mAlbedo[channel] = 0.0f;
-        mIsMeasured = false;
         return;
     }
     if (isBlack(channel)) {
@@ -113,22 +151,51 @@ void ProfileEditor::setAlbedo(int channel, float albedo) {
         values[k * 3] = std::max(values[k * 3] + shift, kLogProfileFloor);
     }
     mAlbedo[channel] = albedo;
-    mIsMeasured = false;
 }
 
-void ProfileEditor::scaleRange(int channel, float scale) {
-    if (scale == 1.0f || isBlack(channel)) {
+void ProfileEditor::scaleRange(const glm::vec3& scale) {
+    const glm::vec3 albedo = mAlbedo;
+    bool isChanged = false;
+    for (int c = 0; c < 3; ++c) {
+        if (scale[c] == 1.0f || isBlack(c)) {
+            continue;
+        }
+        isChanged = true;
+        resampleChannel(mValues.data() + c, mLayout.segments, mLayout.spacingMm(), scale[c],
+                        mOther.data() + c, mLayout.segments, mLayout.spacingMm());
+        for (int k = 0; k < mLayout.knots(); ++k) {
+            const auto i = static_cast<std::size_t>(k * 3 + c);
+            mValues[i] = mOther[i];
+        }
+    }
+    if (!isChanged) {
         return;
     }
-    const float albedo = mAlbedo[channel];
-    resampleChannel(mValues.data() + channel, mLayout.segments, mLayout.spacingMm(), scale,
-                    mOther.data() + channel, mLayout.segments, mLayout.spacingMm());
-    for (int k = 0; k < mLayout.knots(); ++k) {
-        const auto i = static_cast<std::size_t>(k * 3 + channel);
-        mValues[i] = mOther[i];
+    measure();
+    for (int c = 0; c < 3; ++c) {
+        if (scale[c] != 1.0f && !isBlack(c)) {
+            fitFirstKnot(c, albedo[c]);
+        }
     }
     measure();
-    setAlbedo(channel, albedo);
+    for (int c = 0; c < 3; ++c) {
+        if (mAlbedo[c] != albedo[c] && !isBlack(c)) {
+            setAlbedo(c, albedo[c]);
+        }
+    }
+}
+
+void ProfileEditor::fitFirstKnot(int channel, float albedo) {
+    float& l0 = mValues[static_cast<std::size_t>(channel)];
+    const float l1 = mValues[static_cast<std::size_t>(3 + channel)];
+    const float h = mLayout.spacingMm();
+    const float first = fastExp(logFirstEnergy(l0, l1));
+    const float rest = mEnergy.total(channel) - first;
+    const float wanted = albedo / (2.0f * std::numbers::pi_v<float> * h * h) - rest;
+    // A first segment of a tenth or ten times the energy is no longer the same profile.
+    if (wanted > 0.1f * first && wanted < 10.0f * first) {
+        l0 = solveFirstKnot(l0, l1, fastLog(wanted));
+    }
 }
 
 } // namespace celadon::subedit

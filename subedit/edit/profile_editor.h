@@ -62,8 +62,12 @@ public:
     /// Scales P so that a channel has this albedo. A black channel first takes its shape from the
     /// brightest other one, or an exponential if there is none.
     void setAlbedo(int channel, float albedo);
-    /// P(r / s) / s^2, at the same albedo. Without effect on a black channel.
-    void scaleRange(int channel, float scale);
+    /// P(r / s) / s^2 in each channel, at the same albedo. Without effect on a black channel.
+    void scaleRange(const glm::vec3& scale);
+    /// The first knot becomes what gives the channel this albedo, all others staying: what a
+    /// profile that falls steeply at first needs after its knots have moved. Where no such knot
+    /// exists, and in any case for the last digits, P is scaled instead.
+    void fitFirstKnot(int channel, float albedo);
     /// `values()` were written to: measures anew.
     void measure();
 
@@ -73,7 +77,6 @@ private:
     glm::vec3 mAlbedo{0.0f};
     std::vector<float> mValues;
     std::vector<float> mOther;
-    bool mIsMeasured = false;
 };
 
 } // namespace celadon::subedit

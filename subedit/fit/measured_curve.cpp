@@ -2,6 +2,7 @@
 
 #include "subedit/errors.h"
 #include "subedit/log_linear.h"
+#include "subedit/models/gauss_legendre.h"
 
 #include <fmt/format.h>
 
@@ -127,6 +128,75 @@ private:
     MeasuredProfile mProfile;
 };
 
+/// What lies inside the first sample at r > 0: r P = e^a r^c e^(-b r).
+class CurveCore {
+public:
+    CurveCore() = default;
+    /// @param logRp ln(r P) at the samples
+    CurveCore(const std::vector<double>& radius, const std::vector<double>& logRp,
+              CurveCenter center)
+        : mRadius(radius.front()), mLogRp(logRp.front()) {
+        if (center == CurveCenter::Flat) {
+            mPower = 1.0;
+        } else if (center == CurveCenter::Auto) {
+            fit(radius, logRp);
+        }
+    }
+
+    [[nodiscard]] double reflectance(double r) const {
+        if (r <= 0.0 && mPower < kFlat) {
+            return std::numeric_limits<double>::infinity();
+        }
+        const double x = std::max(r / mRadius, 1e-9);
+        return std::exp(mLogRp + (mPower - 1.0) * std::log(x) + mDecay * (1.0 - x)) / mRadius;
+    }
+
+    /// By quadrature in x = s^4, which is smooth for all powers.
+    [[nodiscard]] double energyWithin(double r) const {
+        static const std::vector<QuadratureNode> nodes = [] {
+            std::vector<QuadratureNode> made;
+            appendGaussLegendre(made, 0.0, 1.0, 16);
+            return made;
+        }();
+        const double end = std::max(r, 0.0) / mRadius;
+        double sum = 0.0;
+        for (const QuadratureNode& node : nodes) {
+            const double s = node.position;
+            const double x = end * s * s * s * s;
+            sum += node.weight * 4.0 * s * s * s * end *
+                   std::exp(mLogRp + mPower * std::log(x) + mDecay * (1.0 - x));
+        }
+        return 2.0 * std::numbers::pi * mRadius * sum;
+    }
+
+private:
+    static constexpr double kFlat = 0.95;
+    static constexpr double kSteepest = -0.2;
+    static constexpr double kMostDecay = 1.5; ///< over the first radius
+
+    void fit(const std::vector<double>& radius, const std::vector<double>& logRp) {
+        const double x = std::log(radius[1] / radius[0]);
+        const double dx = (radius[1] - radius[0]) / radius[0];
+        const double y = logRp[1] - logRp[0];
+        if (radius.size() > 2) {
+            // y = c x - b dx at the second sample and at the third.
+            const double x2 = std::log(radius[2] / radius[0]);
+            const double dx2 = (radius[2] - radius[0]) / radius[0];
+            const double y2 = logRp[2] - logRp[0];
+            mPower = (y * dx2 - y2 * dx) / (x * dx2 - x2 * dx);
+        } else {
+            mPower = y / x;
+        }
+        mPower = std::clamp(mPower, kSteepest, 1.0);
+        mDecay = std::clamp((mPower * x - y) / dx, -kMostDecay, kMostDecay);
+    }
+
+    double mRadius = 1.0; ///< of the first sample
+    double mLogRp = 0.0;  ///< there
+    double mPower = 0.0;  ///< c
+    double mDecay = 0.0;  ///< b times the first radius
+};
+
 /// One channel of samples.
 class SampledCurve {
 public:
@@ -134,23 +204,14 @@ public:
         for (std::size_t i = 0; i < profile.radiiMm.size(); ++i) {
             const double p = profile.value[i][channel];
             if (profile.radiiMm[i] == 0.0) {
-                mAtZero = p;
+                mLogAtZero = std::log(std::max(p, kSmallestP));
                 continue;
             }
             mRadius.push_back(profile.radiiMm[i]);
             mLogRp.push_back(std::log(std::max(p, kSmallestP) * profile.radiiMm[i]));
         }
-        mSlope = centerSlope(center);
-        const double first = mRadius.front();
-        if (mAtZero) {
-            // ln P linear from the value at 0.
-            mInner = 2.0 * std::numbers::pi *
-                     pieceEnergy(std::log(std::max(*mAtZero, kSmallestP)),
-                                 mLogRp.front() - std::log(first), 0.0, first);
-        } else {
-            mInner = 2.0 * std::numbers::pi * std::exp(mLogRp.front()) * first / (mSlope + 2.0);
-        }
-        mWithin.push_back(mInner);
+        mCore = CurveCore(mRadius, mLogRp, center);
+        mWithin.push_back(innerEnergy(mRadius.front()));
         for (std::size_t i = 0; i + 1 < mRadius.size(); ++i) {
             mWithin.push_back(mWithin.back() + pieceWithin(i, 1.0));
         }
@@ -159,36 +220,24 @@ public:
     [[nodiscard]] double reflectance(double r) const {
         const double first = mRadius.front();
         if (r < first) {
-            const double atFirst = std::exp(mLogRp.front()) / first;
-            if (mAtZero) {
-                const double low = std::max(*mAtZero, kSmallestP);
-                return low *
-                       std::pow(std::max(atFirst, kSmallestP) / low, std::max(r, 0.0) / first);
-            }
-            if (r <= 0.0) {
-                return mSlope < 0.0 ? std::numeric_limits<double>::infinity() : atFirst;
-            }
-            return atFirst * std::pow(r / first, mSlope);
+            return mLogAtZero ? std::exp(std::lerp(*mLogAtZero, mLogRp.front() - std::log(first),
+                                                   std::max(r, 0.0) / first))
+                              : mCore.reflectance(r);
         }
         if (r > mRadius.back()) {
             return 0.0;
         }
         const auto [i, t] = find(r);
-        return std::exp(mLogRp[i] + (mLogRp[i + 1] - mLogRp[i]) * t) / r;
+        return mLogAtZero ? std::exp(std::lerp(logP(i), logP(i + 1), t))
+                          : std::exp(std::lerp(mLogRp[i], mLogRp[i + 1], t)) / r;
     }
 
     [[nodiscard]] double energyWithin(double r) const {
-        const double first = mRadius.front();
         if (!(r > 0.0)) {
             return 0.0;
         }
-        if (r < first) {
-            if (mAtZero) {
-                return 2.0 * std::numbers::pi *
-                       pieceEnergy(std::log(std::max(*mAtZero, kSmallestP)),
-                                   mLogRp.front() - std::log(first), 0.0, first, r / first);
-            }
-            return mInner * std::pow(r / first, mSlope + 2.0);
+        if (r < mRadius.front()) {
+            return innerEnergy(r);
         }
         if (r >= mRadius.back()) {
             return mWithin.back();
@@ -200,20 +249,24 @@ public:
     [[nodiscard]] double total() const { return mWithin.back(); }
 
 private:
-    [[nodiscard]] double centerSlope(CurveCenter center) const {
-        if (center == CurveCenter::Flat || mRadius.size() < 2) {
-            return 0.0;
+    /// Up to the first radius > 0. From a sample at 0, ln P is linear.
+    [[nodiscard]] double innerEnergy(double r) const {
+        if (!mLogAtZero) {
+            return mCore.energyWithin(r);
         }
-        if (center == CurveCenter::Singular) {
-            return -1.0;
-        }
-        const double slope =
-            (mLogRp[1] - mLogRp[0]) / std::log(mRadius[1] / mRadius[0]) - 1.0; // of ln P in ln r
-        return std::clamp(slope, -1.5, 0.0);
+        const double first = mRadius.front();
+        return 2.0 * std::numbers::pi *
+               pieceEnergy(*mLogAtZero, mLogRp.front() - std::log(first), 0.0, first, r / first);
     }
 
-    /// 2 pi integral of r P over the first t of piece i, where r P is an exponential of r.
+    [[nodiscard]] double logP(std::size_t i) const { return mLogRp[i] - std::log(mRadius[i]); }
+
+    /// 2 pi integral of r P over the first t of piece i, where P, or r P, is an exponential of r.
     [[nodiscard]] double pieceWithin(std::size_t i, double t) const {
+        if (mLogAtZero) {
+            return 2.0 * std::numbers::pi *
+                   pieceEnergy(logP(i), logP(i + 1), mRadius[i], mRadius[i + 1] - mRadius[i], t);
+        }
         const double z = (mLogRp[i + 1] - mLogRp[i]) * t;
         return 2.0 * std::numbers::pi * std::exp(mLogRp[i]) * (mRadius[i + 1] - mRadius[i]) * t *
                expMoment0(z);
@@ -229,9 +282,8 @@ private:
     std::vector<double> mRadius; ///< > 0
     std::vector<double> mLogRp;  ///< ln(r P)
     std::vector<double> mWithin; ///< energy inside each radius
-    std::optional<double> mAtZero;
-    double mSlope = 0.0; ///< of ln P over ln r, inside the first radius, where P(0) is not given
-    double mInner = 0.0; ///< energy there
+    std::optional<double> mLogAtZero;
+    CurveCore mCore; ///< used where P(0) is not given
 };
 
 } // namespace

@@ -16,7 +16,8 @@ struct MeasuredProfile {
 
 /// What lies between the first sample and r = 0.
 enum class CurveCenter {
-    Auto,    ///< a power of r with the slope of the first samples, at most as steep as r^-1.5
+    Auto,    ///< P = a r^(c-1) e^(-b r) through the first three samples, -0.2 <= c <= 1: from
+             ///< profiles that are flat there to those like 1/r and a little steeper
     Flat,    ///< as high as the first sample
     Singular ///< 1/r
 };
@@ -31,8 +32,8 @@ enum class CurveCenter {
 /// @throws InputError as above, or if the file cannot be read
 [[nodiscard]] MeasuredProfile readProfileCsv(const std::filesystem::path& file);
 
-/// Between samples ln(r P) is linear in r, which suits 1/r peaks and exponential tails alike;
-/// beyond the last one P is 0.
+/// Between samples ln P is linear in r where P(0) is given; else ln(r P) is, which suits peaks like
+/// 1/r and exponential tails alike. Beyond the last sample P is 0.
 [[nodiscard]] RadialCurves measuredCurves(const MeasuredProfile& profile,
                                           CurveCenter center = CurveCenter::Auto);
 

@@ -13,6 +13,7 @@ namespace celadon::subedit {
 namespace {
 
 constexpr int kSamplesPerSegment = 16;
+constexpr double kBlackTotal = 1e-9; ///< of the floor's own order
 constexpr double kFloor = kLogProfileFloor;
 constexpr double kMaxLog = 40.0; ///< the reader's limit on ln P
 
@@ -221,7 +222,7 @@ FitError measureFit(const RadialCurves& curves, const FittedProfile& fitted) {
     for (int channel = 0; channel < 3; ++channel) {
         const RadialCurve& curve = curves[static_cast<std::size_t>(channel)];
         error.albedo[channel] -= curve.total;
-        if (curve.total <= 0.0) {
+        if (curve.total <= kBlackTotal) {
             continue;
         }
         error.rmsLogOutside[channel] = rmsLogOutside(curve, fitted, channel);

@@ -1,15 +1,14 @@
 #include "subedit/map/material_bake.h"
 
 #include "subedit/assert.h"
+#include "subedit/fit/albedo_shift.h"
 #include "subedit/fit/profile_fit.h"
-#include "subedit/log_linear.h"
 #include "subedit/models/normalized_diffusion.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace celadon::subedit {
 
@@ -61,16 +60,6 @@ private:
     std::vector<double> mLogP;
 };
 
-/// What to add to ln P so that the profile has this albedo.
-double shiftToAlbedo(const std::vector<double>& knots, double maxRadiusMm, double albedo) {
-    const double h = maxRadiusMm / static_cast<double>(knots.size() - 1);
-    double energy = 0.0;
-    for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
-        energy += pieceEnergy(knots[k], knots[k + 1], static_cast<double>(k) * h, h);
-    }
-    return std::log(albedo / (2.0 * std::numbers::pi * energy));
-}
-
 } // namespace
 
 MaterialMap bakeAppearance(const AppearanceMap& appearance, const BakeSettings& settings) {
@@ -114,7 +103,8 @@ MaterialMap bakeAppearance(const AppearanceMap& appearance, const BakeSettings& 
                 continue;
             }
             table.profile(static_cast<double>(appearance.effectiveRadius[texel][c]), logP.data());
-            const double shift = shiftToAlbedo(logP, maxRadiusMm, static_cast<double>(albedo));
+            const double shift = albedoShift(logP.data(), 1, settings.segments, maxRadiusMm,
+                                             static_cast<double>(albedo));
             for (std::size_t k = 0; k < knots; ++k) {
                 out[k * 3] = std::max(static_cast<float>(logP[k] + shift), kLogProfileFloor);
             }

@@ -9,6 +9,8 @@
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <array>
@@ -304,26 +306,29 @@ void packFloats(const MaterialMap& map, std::size_t begin, std::size_t end, std:
     }
 }
 
+/// Rounding looks at every profile as a whole, and takes longer than the compression: on all cores.
 void packHalves(const MaterialMap& map, std::size_t begin, std::size_t end, std::size_t channels,
                 std::vector<std::uint16_t>& out) {
     const auto values = static_cast<std::size_t>(map.knots()) * 3;
-    std::vector<float> floored(values);
     out.resize((end - begin) * channels);
-    std::uint16_t* pixel = out.data();
-    for (std::size_t texel = begin; texel < end; ++texel, pixel += channels) {
-        for (std::size_t i = 0; i < values; ++i) {
-            floored[i] =
-                std::clamp(map.logProfile[texel * values + i], kLogProfileFloor, kMaxLogProfile);
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 256), [&](const auto& range) {
+        std::vector<float> floored(values);
+        for (std::size_t texel = range.begin(); texel < range.end(); ++texel) {
+            std::uint16_t* pixel = out.data() + (texel - begin) * channels;
+            for (std::size_t i = 0; i < values; ++i) {
+                floored[i] = std::clamp(map.logProfile[texel * values + i], kLogProfileFloor,
+                                        kMaxLogProfile);
+            }
+            roundKeepingAlbedo(floored.data(), map.segments, pixel);
+            std::size_t next = values;
+            if (!map.roughness.empty()) {
+                pixel[next++] = unitHalf(map.roughness[texel]);
+            }
+            if (!map.specular.empty()) {
+                pixel[next] = unitHalf(map.specular[texel]);
+            }
         }
-        roundKeepingAlbedo(floored.data(), map.segments, pixel);
-        std::size_t next = values;
-        if (!map.roughness.empty()) {
-            pixel[next++] = unitHalf(map.roughness[texel]);
-        }
-        if (!map.specular.empty()) {
-            pixel[next] = unitHalf(map.specular[texel]);
-        }
-    }
+    });
 }
 
 } // namespace

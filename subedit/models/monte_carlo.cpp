@@ -26,15 +26,16 @@ public:
             if (energy <= 0.0 || variance > kMostNoise * kMostNoise * energy * energy) {
                 continue;
             }
-            const double from = mEdges.back();
-            const double to = result.edgesMm[bin + 1];
-            const double r = from == 0.0 ? 0.5 * to : std::sqrt(from * to);
-            mLogRadius.push_back(std::log(r));
-            mLogP.push_back(std::log(energy / (std::numbers::pi * (to * to - from * from))));
-            mEdges.push_back(to);
-            mWithin.push_back(mWithin.back() + energy);
+            addRing(result.edgesMm[bin + 1], energy);
             energy = 0.0;
             variance = 0.0;
+        }
+        if (mLogP.empty() && energy > 0.0) { // next to no walks: one ring that holds them all
+            std::size_t last = result.bins() - 1;
+            while (histogram.energy[last] <= 0.0) {
+                --last;
+            }
+            addRing(result.edgesMm[last + 1], energy);
         }
         mTotal = histogram.total;
         const std::size_t count = mLogP.size();
@@ -90,6 +91,15 @@ public:
     [[nodiscard]] double total() const { return mTotal; }
 
 private:
+    void addRing(double to, double energy) {
+        const double from = mEdges.back();
+        const double r = from == 0.0 ? 0.5 * to : std::sqrt(from * to);
+        mLogRadius.push_back(std::log(r));
+        mLogP.push_back(std::log(energy / (std::numbers::pi * (to * to - from * from))));
+        mEdges.push_back(to);
+        mWithin.push_back(mWithin.back() + energy);
+    }
+
     std::vector<double> mEdges;  ///< mm, of the joined rings
     std::vector<double> mWithin; ///< energy inside each edge
     std::vector<double> mLogRadius, mLogP;

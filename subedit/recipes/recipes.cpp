@@ -6,6 +6,7 @@
 #include "subedit/presets.h"
 #include "subedit/recipes/jade.h"
 #include "subedit/recipes/stone.h"
+#include "subedit/recipes/strata.h"
 #include "subedit/recipes/wax.h"
 
 #include <fmt/format.h>
@@ -58,6 +59,8 @@ constexpr std::array kRecipes = {
            kMeasuredSegments},
     Recipe{"artificial_stone", "pressed grains of different minerals in a pale binder", 128,
            bakeArtificialStone, kMapSegments},
+    Recipe{"banded_onyx", "folded layers of clear and milky onyx", 128, bakeBandedOnyx,
+           kMapSegments},
     Recipe{"blue_wax", "swirls of clear and dense blue wax", 128, bakeBlueWax, kMapSegments},
     Recipe{kCream, "cream, measured (Jensen et al. 2001)", 1, bakeMeasured<kCream>,
            kMeasuredSegments},

@@ -193,5 +193,11 @@ TEST_F(BadInput, SequencesStopAtTheFirstMissingModel) {
     expectRefused({"--sequence", file("m.obj"), "--frames", "1:2"}, 2, HasSubstr("--sequence"));
 }
 
+TEST_F(BadInput, ATableThatIsNone) {
+    expectRefused({"builtin:slab", "--table", textFile("t.csv", "T,minimalRadius\n1,2\n")}, 3,
+                  AllOf(HasSubstr("t.csv"), HasSubstr("[0, 1]")));
+    expectRefused({"builtin:slab", "--table", file("absent.csv")}, 3, HasSubstr("no such file"));
+}
+
 } // namespace
 } // namespace celadon

@@ -95,6 +95,18 @@ TEST_F(MaterialEdit, PaintsOnModels) {
               readMaterial(findMaterial("yellow_wax")).logProfile);
 }
 
+TEST_F(MaterialEdit, EnlargesAMaterialThatIsTooCoarseToPaintOn) {
+    StrokeFile file = someStrokes();
+    file.surface.texels = glm::ivec2(40, 30);
+    writeStrokes(file);
+    ASSERT_EQ(edit({"-o", path("a.subedit.exr")}).exitCode, 0);
+    const MaterialMap painted = readMaterial(folder / "a.subedit.exr");
+    EXPECT_EQ(painted.width, 40);
+    EXPECT_EQ(painted.height, 30);
+    ASSERT_EQ(edit({"--size", "64", "-o", path("b.subedit.exr")}).exitCode, 0);
+    EXPECT_EQ(readMaterial(folder / "b.subedit.exr").height, 64);
+}
+
 TEST_F(MaterialEdit, SaysWhatItClamped) {
     StrokeFile file;
     file.commands = {ApplyCommand{ScaleAlbedo{glm::vec3(3.0f)}}};

@@ -26,6 +26,11 @@ RenderOptions parse(std::vector<std::string> words,
     return options;
 }
 
+TEST(RenderOptions, ATableStandsForItsOwnEpsilon) {
+    EXPECT_EQ(parse({"--table", "t.exr"}).table, "t.exr");
+    EXPECT_THROW(parse({"--table", "t.exr", "--epsilon", "0.01"}), UsageError);
+}
+
 TEST(RenderOptions, HaveTheDocumentedDefaults) {
     const RenderOptions o = parse({});
     EXPECT_EQ(o.model, "m.obj");

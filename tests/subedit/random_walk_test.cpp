@@ -137,6 +137,19 @@ TEST(RandomWalk, ScalingLengthsScalesTheProfile) {
     }
 }
 
+TEST(MonteCarlo, AFewWalksStillGiveACurve) {
+    const Medium medium{{0.061, 0.97, 1.45}, {0.18, 0.07, 0.03}, 1.3, 0.0};
+    for (const int walks : {1, 2, 10}) {
+        const RadialCurves curves = monteCarloProfile(simulateRandomWalk(medium, {walks, 1}));
+        const FittedProfile fitted = fitProfile(curves, {8});
+        EXPECT_LT(fitted.maxRadiusMm, 1e4f);
+        for (int channel = 0; channel < 3; ++channel) {
+            EXPECT_NEAR(diffuseAlbedo(fitted.view())[channel],
+                        curves[static_cast<std::size_t>(channel)].total, 1e-3);
+        }
+    }
+}
+
 TEST(MonteCarlo, CurveHoldsTheEnergyOfTheRings) {
     const RandomWalkResult result =
         simulateRandomWalk({{0.02, 0.1, 0.5}, glm::dvec3(1.0), 1.3, 0.0}, {100'000, 21});

@@ -17,6 +17,57 @@ void change(Session& session, const char* command, const char* name, double valu
     session.perform({command, {{name, value}}});
 }
 
+void drawTools(Session& session) {
+    constexpr std::array<const char*, 4> kLabels{"Paint", "Select", "Similar", "Pick"};
+    constexpr std::array<const char*, 4> kWords{"paint", "select", "similar", "pick"};
+    constexpr std::array<const char*, 4> kHelps{
+        "Strokes apply the operator (B)",
+        "Strokes add to the selection; with Ctrl they take away (M)",
+        "A click selects what has a profile like the one there; with Shift it adds",
+        "A click takes the profile there as primary (S)"};
+    const int tool =
+        choiceRow("tools", kLabels.data(), kHelps.data(), 4, static_cast<int>(session.paint.tool));
+    if (tool >= 0) {
+        session.perform({"tool.choose", {{"name", kWords[static_cast<std::size_t>(tool)]}}});
+    }
+}
+
+void drawSelection(Session& session) {
+    heading("Selection");
+    if (session.paint.tool == Tool::Similar) {
+        float tolerance = session.paint.tolerance;
+        if (sliderField("Tolerance", tolerance, 0.005f, 1.0f, "%.3f",
+                        "How far a profile may be from the one that is clicked", true)) {
+            change(session, "operator.change", "tolerance", static_cast<double>(tolerance));
+        }
+    }
+    const auto step = [&](const char* what) {
+        session.perform({"select.change", {{"what", what}}});
+    };
+    constexpr std::array<const char*, 3> kWhole{"All", "None", "Invert"};
+    constexpr std::array<const char*, 3> kWholeWords{"all", "none", "invert"};
+    constexpr std::array<const char*, 3> kWholeHelps{
+        "Everything: edits apply everywhere (Ctrl+A)",
+        "Nothing: edits do nothing until something is selected (Ctrl+D)",
+        "What is not selected now (Ctrl+I)"};
+    const int whole = choiceRow("whole", kWhole.data(), kWholeHelps.data(), 3, -1);
+    if (whole >= 0) {
+        step(kWholeWords[static_cast<std::size_t>(whole)]);
+    }
+    constexpr std::array<const char*, 3> kEdge{"Grow", "Shrink", "Feather"};
+    constexpr std::array<const char*, 3> kEdgeWords{"grow", "shrink", "feather"};
+    constexpr std::array<const char*, 3> kEdgeHelps{
+        "Outwards by a quarter of the brush radius, along the surface",
+        "Inwards by a quarter of the brush radius, along the surface",
+        "A soft edge, a quarter of the brush radius to both sides"};
+    const int edge = choiceRow("edge", kEdge.data(), kEdgeHelps.data(), 3, -1);
+    if (edge >= 0) {
+        session.perform({"select.change",
+                         {{"what", kEdgeWords[static_cast<std::size_t>(edge)]},
+                          {"mm", 0.25 * static_cast<double>(session.paint.brush.radiusMm)}}});
+    }
+}
+
 void drawOperators(Session& session) {
     heading("Operator");
     const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
@@ -69,6 +120,24 @@ void drawParameters(Session& session) {
                        "Linear; as albedo: the part of the light that comes out again")) {
             session.perform({"operator.change", {{"color", {rgb[0], rgb[1], rgb[2]}}}});
         }
+    }
+    if (paint.op == PaintOperator::Enhance) {
+        float amount = 100.0f * paint.enhanceAmount;
+        if (sliderField("Amount", amount, -100.0f, 400.0f, "%+.0f %%",
+                        "Differences become this much larger; below zero they are smoothed")) {
+            change(session, "operator.change", "enhance", static_cast<double>(amount) / 100.0);
+        }
+    }
+    if (paint.op == PaintOperator::Enhance || paint.op == PaintOperator::Pattern) {
+        float radius = paint.neighborhoodMm;
+        if (sliderField("Within", radius, 0.5f, 50.0f, "%.1f mm",
+                        "Neighborhood on the surface that differences are taken from, mm", true)) {
+            change(session, "operator.change", "neighborhood", static_cast<double>(radius));
+        }
+    }
+    if (paint.op == PaintOperator::Clone || paint.op == PaintOperator::Pattern) {
+        hint(paint.cloneSource ? "Paint: the place you chose comes to where the stroke begins."
+                               : "Shift+click on the surface: where to copy from.");
     }
     if (paint.op == PaintOperator::SetRange) {
         constexpr std::array<const char*, 3> kNames{"Red", "Green", "Blue"};
@@ -167,13 +236,15 @@ void drawBrushPanel(Session& session) {
                                             : "The editor was started with --view-only.");
         return;
     }
+    drawTools(session);
     drawOperators(session);
     drawParameters(session);
     if (ImGui::Button("Fill", {-1.0f, 0.0f})) {
         session.perform({"edit.fill"});
     }
-    tooltip("Applies the operator to the whole selection, or to everything if nothing is selected");
+    tooltip("Applies the operator to all that is selected");
     drawBrush(session);
+    drawSelection(session);
     drawHistory(session);
 }
 

@@ -13,23 +13,21 @@ namespace celadon::ui {
 
 namespace {
 
+constexpr float kKeysWidth = 12.5f; ///< in font sizes
+
 void row(const char* keys, const char* help) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
+    const float width = ImGui::CalcTextSize(keys).x;
     ImGui::TextColored(colors::kAccent, "%s", keys);
-    ImGui::TableNextColumn();
+    ImGui::SameLine(0.0f, std::max(kKeysWidth * ImGui::GetFontSize() - width, 4.0f));
     ImGui::TextUnformatted(help);
 }
 
-void table(const char* group) {
+void list(const char* group) {
     heading(group);
-    if (ImGui::BeginTable(group, 2, ImGuiTableFlags_SizingFixedFit)) {
-        for (const Shortcut& shortcut : shortcuts()) {
-            if (shortcut.help != nullptr && std::strcmp(shortcut.group, group) == 0) {
-                row(shortcut.keys, shortcut.help);
-            }
+    for (const Shortcut& shortcut : shortcuts()) {
+        if (shortcut.help != nullptr && std::strcmp(shortcut.group, group) == 0) {
+            row(shortcut.keys, shortcut.help);
         }
-        ImGui::EndTable();
     }
 }
 
@@ -48,23 +46,22 @@ void drawHelpWindow(bool& isShown, float scale) {
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                          ImGuiWindowFlags_NoResize | ImGuiWindowFlags_AlwaysAutoResize |
                          ImGuiWindowFlags_NoSavedSettings)) {
-        const bool isWide = display.x > 780.0f * scale;
-        if (ImGui::BeginTable("columns", isWide ? 2 : 1, ImGuiTableFlags_SizingFixedFit)) {
-            ImGui::TableNextColumn();
-            table("Paint");
-            table("Files");
-            ImGui::TableNextColumn();
-            heading("Mouse");
-            if (ImGui::BeginTable("mouse", 2, ImGuiTableFlags_SizingFixedFit)) {
-                for (const MouseHelp& help : mouseHelp()) {
-                    row(help.keys, help.help);
-                }
-                ImGui::EndTable();
-            }
-            table("View");
-            table("Window");
-            ImGui::EndTable();
+        const bool isWide = display.x > 900.0f * scale;
+        ImGui::BeginGroup();
+        list("Paint");
+        list("Files");
+        ImGui::EndGroup();
+        if (isWide) {
+            ImGui::SameLine(0.0f, 36.0f * scale);
         }
+        ImGui::BeginGroup();
+        heading("Mouse");
+        for (const MouseHelp& help : mouseHelp()) {
+            row(help.keys, help.help);
+        }
+        list("View");
+        list("Window");
+        ImGui::EndGroup();
     }
     ImGui::End();
     ImGui::PopStyleVar(2);

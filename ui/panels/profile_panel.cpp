@@ -91,8 +91,9 @@ void drawPreview(const Session& session) {
     };
     swatch(look.reflected, "From the front", "Light that comes back");
     ImGui::SameLine(0.0f, gap);
-    swatch(look.transmitted, "From behind", "Light that comes through, shown three stops brighter");
-    hint("Estimated from the profile: what spreads further than the thickness comes out behind.");
+    swatch(glm::min(4.0f * look.transmitted, glm::vec3(1.0f)), "From behind",
+           "Light that comes through, shown two stops brighter");
+    hint("Estimated from albedo and the fall of P(r) (Kubelka 1948).");
 }
 
 void drawStarts(Session& session) {

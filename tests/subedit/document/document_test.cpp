@@ -162,6 +162,33 @@ TEST(Document, UndoGivesBackTheBytesWhenTheHistoryIsTrimmed) {
     }
 }
 
+TEST(Document, HistoryStaysWithinItsBudget) {
+    constexpr std::size_t kBudget = std::size_t{1} << 20;
+    const MaterialMap original = test::varyingMaterial(kSize, kSize, 16);
+    const std::size_t mapBytes = original.logProfile.size() * sizeof(float);
+    Document document(original, flat(), {.historyBytes = kBudget});
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> place(5.0f, 75.0f);
+    constexpr std::size_t kStrokes = 150;
+    std::size_t painted = 0;
+    for (std::size_t i = 0; i < kStrokes; ++i) {
+        painted += document
+                       .execute(stroke(ScaleAlbedo{{0.9f, 1.0f, 0.95f}}, place(random),
+                                       place(random), place(random), place(random)))
+                       .texels;
+    }
+    // Untrimmed it would be several times as much.
+    EXPECT_GT(painted * 17 * 3 * sizeof(float), 5 * (mapBytes + kBudget));
+    // The first profile of each texel, the budget, and weights and dabs of each stroke.
+    EXPECT_LT(document.historyBytes(), mapBytes + kBudget + kStrokes * 40000);
+    while (document.undo()) {
+    }
+    EXPECT_EQ(document.material().logProfile, original.logProfile);
+    while (document.redo()) {
+    }
+    EXPECT_LT(document.historyBytes(), mapBytes + kBudget + kStrokes * 40000);
+}
+
 TEST(Document, SelectionBoundsEditsAndIsUndone) {
     const MaterialMap original = test::varyingMaterial(kSize, kSize, 16);
     Document document(original, flat());

@@ -29,6 +29,7 @@ StrokeFile everything() {
         {{brush, mirror, {a, b}, 0.7f}, {brush, {}, {b}, 0.0f}}, 0.123f, 17.1f};
     StrokeFile file;
     file.surface.model = "models/bust \"x\".obj";
+    file.surface.texels = glm::ivec2(512, 256);
     for (const EditOperator& op : std::vector<EditOperator>{
              ScaleAlbedo{{0.1f, 0.2f, 1.3f}}, SetAlbedo{{0.1f, 0.7f, 1.0f}},
              Tint{{0.1f, 2.0f, 0.3f}, 0.4f}, ScaleRange{{0.1f, 1.7f, 3.3f}},

@@ -1,5 +1,7 @@
 #include "subedit/edit/apply_operator.h"
 #include "subedit/effective_radius.h"
+#include "subedit/fast_log.h"
+#include "subedit/map/material_bake.h"
 #include "tests/subedit/support/profiles.h"
 
 #include <gtest/gtest.h>
@@ -149,6 +151,26 @@ TEST(Operator, RangeEditsLeaveAlbedoAndScaleLengths) {
                kRangeTolerance, "set");
 }
 
+/// Profiles of real materials are infinite at the center and bend most where knots are few.
+TEST(Operator, RangeEditsHitTheRangeOfBakedProfilesToo) {
+    AppearanceMap appearance;
+    appearance.width = appearance.height = 1;
+    appearance.albedo = {{0.9f, 0.6f, 0.4f}};
+    appearance.effectiveRadius = {{10.0f, 8.0f, 6.0f}};
+    BakeSettings settings;
+    settings.segments = kLayout.segments;
+    settings.maxRadiusMm = static_cast<double>(kLayout.maxRadiusMm);
+    const std::vector<float> before = bakeAppearance(appearance, settings).logProfile;
+    for (const float factor : {0.5f, 0.7f, 0.9f, 1.1f, 1.3f}) {
+        const std::vector<float> after = edited(ScaleRange{glm::vec3(factor)}, before);
+        expectNear(albedoOf(after), albedoOf(before), kAlbedoTolerance, "albedo");
+        // Measured: 0.9 % at half the range, where R_P is three segments.
+        expectNear(radiusOf(after), radiusOf(before) * static_cast<double>(factor), 0.02, "range");
+    }
+    expectNear(radiusOf(edited(SetRange{{5.0f, 5.0f, 5.0f}}, before)), {5.0, 5.0, 5.0}, 0.02,
+               "set");
+}
+
 TEST(Operator, ShapeEditsLeaveAlbedoAndRange) {
     const std::vector<float> before = profile({2.0f, 1.8f, 1.6f});
     // A Gaussian, of another albedo and range.
@@ -171,6 +193,16 @@ TEST(Operator, ShapeEditsLeaveAlbedoAndRange) {
     const glm::dvec3 gaussHalf =
         effectiveRadiusMm(gauss.view(), 0.5) / effectiveRadiusMm(gauss.view());
     expectNear(half, gaussHalf, 0.01, "shape");
+}
+
+TEST(Operator, FastLogarithmIsOne) {
+    for (float x = 1e-35f; x < 1e35f; x *= 1.37f) {
+        const double expected = std::log(static_cast<double>(x));
+        ASSERT_NEAR(static_cast<double>(fastLog(x)), expected,
+                    2e-7 * std::max(1.0, std::abs(expected)))
+            << x;
+    }
+    EXPECT_EQ(fastLog(1.0f), 0.0f);
 }
 
 TEST(Operator, ReplacingGivesTheProfileItself) {
@@ -198,7 +230,7 @@ TEST(Operator, AlbedoAndRangeCommute) {
         }
     };
     expectSame(dim, dimmer, 1e-5);
-    expectSame(dim, shrink, 2e-5);
+    expectSame(dim, shrink, 1e-4); // the first knot is solved for, to some 1e-5
 }
 
 TEST(Operator, SaysWhatRadiusItNeeds) {

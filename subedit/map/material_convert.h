@@ -1,0 +1,21 @@
+#pragma once
+
+#include "subedit/map/material_map.h"
+
+/// The same material in another size or resolution of its profiles.
+namespace celadon::subedit {
+
+struct ConvertSettings {
+    int width = 0;            ///< texels; 0 keeps
+    int height = 0;           ///< texels; 0 keeps
+    int segments = 0;         ///< 0 keeps
+    double maxRadiusMm = 0.0; ///< r_s; 0 keeps
+};
+
+/// Larger maps interpolate ln P as rendering does; smaller ones take the mean of P over each
+/// texel's footprint. Either way a texel's albedo is the mean (or the interpolation) of the albedos
+/// it comes from. Other segments and another r_s fit each profile anew and keep its albedo: a
+/// smaller r_s gives the energy beyond it back, nearer.
+[[nodiscard]] MaterialMap convertMaterial(const MaterialMap& map, const ConvertSettings& settings);
+
+} // namespace celadon::subedit

@@ -1,0 +1,82 @@
+#include "tests/support/temporary_folder.h"
+#include "ui/journal.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace celadon::ui {
+namespace {
+
+const Command kEdit{"paint.edit", {{"material", 0}}};
+
+/// The journal of a process that is no more: its file renamed to a number that none has.
+void abandon(const std::filesystem::path& folder) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        std::filesystem::rename(entry.path(), folder / "99999999.journal");
+        return;
+    }
+    FAIL() << "there is no journal";
+}
+
+TEST(Journal, IsFoundAfterACrashAndHoldsWhatChangesMaterials) {
+    const test::TemporaryFolder folder;
+    {
+        Journal journal(folder.path());
+        journal.begin({"a model", "a material"});
+        EXPECT_FALSE(journal.add({"camera.orbit"}));
+        EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+        EXPECT_FALSE(journal.add(kEdit));
+        EXPECT_FALSE(journal.add({"edit.undo"}));
+    } // as a crash: finish() was not called
+    EXPECT_FALSE(findRecovery(folder.path())) << "of a process that lives";
+    abandon(folder.path());
+    const auto found = findRecovery(folder.path());
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->opened.model, "a model");
+    EXPECT_EQ(found->opened.material, "a material");
+    ASSERT_EQ(found->commands.size(), 2u);
+    EXPECT_EQ(found->commands[1].name, "edit.undo");
+}
+
+TEST(Journal, LosesAtMostTheLineThatWasCut) {
+    const test::TemporaryFolder folder;
+    {
+        Journal journal(folder.path());
+        journal.begin({"m", ""});
+        EXPECT_FALSE(journal.add(kEdit));
+    }
+    abandon(folder.path());
+    std::ofstream(folder / "99999999.journal", std::ios::app) << "{\"command\":\"paint.ed";
+    const auto found = findRecovery(folder.path());
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->commands.size(), 1u);
+}
+
+TEST(Journal, LeavesNothingBehindWhenFinished) {
+    const test::TemporaryFolder folder;
+    Journal journal(folder.path());
+    journal.begin({"m", ""});
+    EXPECT_FALSE(journal.add(kEdit));
+    EXPECT_FALSE(std::filesystem::is_empty(folder.path()));
+    journal.finish();
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Journal, RubbishIsNoRecovery) {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "99999998.journal") << "rubbish\nmore\n";
+    std::ofstream(folder / "99999997.journal") << "";
+    EXPECT_FALSE(findRecovery(folder.path()));
+    EXPECT_FALSE(findRecovery(folder / "absent"));
+}
+
+TEST(Journal, SaysOnceThatItCannotWrite) {
+    Journal journal("/proc/no/such/folder");
+    journal.begin({"m", ""});
+    EXPECT_TRUE(journal.add(kEdit));
+    EXPECT_FALSE(journal.add(kEdit));
+}
+
+} // namespace
+} // namespace celadon::ui

@@ -1,0 +1,120 @@
+#!/usr/bin/env bash
+# The editor in a real window, by real mouse and key events: window_test.sh PROGRAM FOLDER
+# Waits on the editor's state file (--state), never on time alone. Exit code 77: cannot run here.
+set -u
+program=$1
+folder=$2
+
+for tool in Xvfb xdotool; do
+    command -v "$tool" >/dev/null || { echo "skipped: $tool is missing"; exit 77; }
+done
+
+rm -rf "$folder"
+mkdir -p "$folder/config" "$folder/state"
+export XDG_CONFIG_HOME=$folder/config XDG_STATE_HOME=$folder/state
+unset WAYLAND_DISPLAY
+state=$folder/state.json
+editor=
+exec 3>"$folder/display"
+Xvfb -displayfd 3 -screen 0 1000x700x24 >/dev/null 2>&1 &
+server=$!
+cleanup() {
+    [ -n "$editor" ] && kill -9 "$editor" 2>/dev/null
+    kill "$server" 2>/dev/null
+    wait 2>/dev/null
+}
+trap cleanup EXIT
+
+fail() {
+    echo "failed: $*" >&2
+    cat "$state" >&2 2>/dev/null
+    exit 1
+}
+
+# await SECONDS TEXT: until the state file holds TEXT.
+await() {
+    local end=$((SECONDS + $1))
+    until grep -q -e "$2" "$state" 2>/dev/null; do
+        [ $SECONDS -lt $end ] || fail "no $2 within $1 s"
+        kill -0 "$editor" 2>/dev/null || fail "the editor ended while waiting for $2"
+        sleep 0.05
+    done
+}
+
+start() { # start ARGUMENTS: until the first picture is there
+    rm -f "$state"
+    "$program" edit builtin:sphere --size 900x600 --quality draft --state "$state" "$@" 2>"$folder/stderr" &
+    editor=$!
+    await 60 '"open":true'
+    await 60 '"rung":[0-9]'
+}
+
+stroke() { # a short stroke across the middle of the viewport
+    xdotool mousemove 250 300 mousedown 1
+    for x in 255 262 270 280 292 305; do
+        xdotool mousemove "$x" 300
+    done
+    xdotool mouseup 1
+}
+
+field() { grep -o "\"$1\":[^,}]*" "$state" | cut -d: -f2; }
+
+for _ in $(seq 100); do [ -s "$folder/display" ] && break; sleep 0.1; done
+DISPLAY=:$(cat "$folder/display")
+export DISPLAY
+[ "$DISPLAY" != ":" ] || { echo "skipped: no X server"; exit 77; }
+
+# A stroke, undo, redo, save, close.
+start --record "$folder/record.jsonl"
+stroke
+await 30 '"strokes":1'
+await 30 '"modified":true'
+xdotool key ctrl+z
+await 30 '"strokes":0'
+xdotool key ctrl+shift+z
+await 30 '"strokes":1'
+xdotool key ctrl+s
+await 30 '"asking":true'
+xdotool type --delay 20 "$folder/painted.subedit.exr"
+xdotool key Return
+await 30 '"modified":false'
+[ -s "$folder/painted.subedit.exr" ] || fail "nothing was saved"
+ls "$folder"/state/celadon/*.journal >/dev/null 2>&1 || fail "there is no journal"
+xdotool key ctrl+q
+wait "$editor" || fail "the editor ended with $?"
+editor=
+ls "$folder"/state/celadon/*.journal >/dev/null 2>&1 && fail "the journal was left behind"
+grep -q '"command":"paint.edit"' "$folder/record.jsonl" || fail "the stroke was not recorded"
+
+# The same commands give the same bytes, in another window.
+sed "s|painted.subedit.exr|replayed.subedit.exr|" "$folder/record.jsonl" | grep -v file.open >"$folder/replay.jsonl"
+"$program" edit builtin:sphere --size 500x400 --quality draft --replay "$folder/replay.jsonl" \
+    --exit-after-replay 2>"$folder/stderr" || fail "the replay ended with $?: $(cat "$folder/stderr")"
+cmp "$folder/painted.subedit.exr" "$folder/replayed.subedit.exr" || fail "the replay painted something else"
+
+# Killed in the middle of a stroke: what was finished comes back.
+start
+stroke
+await 30 '"strokes":1'
+xdotool mousemove 250 330 mousedown 1 mousemove 270 330
+kill -9 "$editor"
+wait "$editor" 2>/dev/null
+xdotool mouseup 1
+start
+await 30 '"asking":true'
+xdotool key Return # Recover
+await 60 '"strokes":1'
+await 30 '"modified":true'
+
+# Unsaved changes are asked about; a small window and a broken file do no harm.
+window=$(xdotool search --onlyvisible --name Celadon | tail -1)
+xdotool windowsize "$window" 330 330
+await 30 '"settled":true'
+xdotool windowsize "$window" 900 600
+await 30 '"settled":true'
+xdotool key ctrl+q
+await 30 '"asking":true'
+xdotool key Escape
+await 30 '"asking":false'
+kill -0 "$editor" || fail "Escape closed the editor"
+echo "passed in $SECONDS s"

@@ -1,0 +1,233 @@
+#include "ui/panels/file_dialog.h"
+
+#include "ui/theme.h"
+#include "ui/widgets/fields.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+
+namespace celadon::ui {
+
+namespace {
+
+std::string lowered(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+std::string sizeText(std::uintmax_t bytes) {
+    const auto amount = static_cast<double>(bytes);
+    return bytes < 1000 * 1000 ? fmt::format("{:.0f} kB", std::ceil(amount / 1e3))
+                               : fmt::format("{:.1f} MB", amount / 1e6);
+}
+
+} // namespace
+
+void FileDialog::open(Kind kind, const std::string& title, std::vector<std::string> suffixes,
+                      const std::filesystem::path& folder, const std::string& name,
+                      std::function<void(const std::filesystem::path&)> done) {
+    mKind = kind;
+    mTitle = title;
+    mSuffixes = std::move(suffixes);
+    mName = name;
+    mDone = std::move(done);
+    mMayReplace = false;
+    mIsOpen = true;
+    mAppears = true;
+    std::error_code failed;
+    enter(std::filesystem::is_directory(folder, failed) ? folder
+                                                        : std::filesystem::current_path(failed));
+}
+
+void FileDialog::enter(const std::filesystem::path& folder) {
+    std::error_code failed;
+    std::vector<Entry> entries;
+    for (auto it = std::filesystem::directory_iterator(folder, failed);
+         !failed && it != std::filesystem::directory_iterator(); it.increment(failed)) {
+        Entry entry;
+        entry.name = it->path().filename().string();
+        std::error_code ignored;
+        entry.isFolder = it->is_directory(ignored);
+        if (entry.name.starts_with('.')) {
+            continue;
+        }
+        const std::string lower = lowered(entry.name);
+        const bool fits = mSuffixes.empty() ||
+                          std::any_of(mSuffixes.begin(), mSuffixes.end(),
+                                      [&](const auto& suffix) { return lower.ends_with(suffix); });
+        if (!entry.isFolder && !fits) {
+            continue;
+        }
+        entry.bytes = entry.isFolder ? 0 : it->file_size(ignored);
+        entries.push_back(std::move(entry));
+    }
+    if (failed) {
+        mProblem = fmt::format("{}: {}", folder.string(), failed.message());
+        return;
+    }
+    std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+        return a.isFolder != b.isFolder ? a.isFolder : lowered(a.name) < lowered(b.name);
+    });
+    mProblem.clear();
+    mFolder = std::filesystem::weakly_canonical(folder, failed);
+    mEntries = std::move(entries);
+}
+
+void FileDialog::choose() {
+    if (mName.empty()) {
+        return;
+    }
+    std::filesystem::path file =
+        std::filesystem::path(mName).is_absolute() ? std::filesystem::path(mName) : mFolder / mName;
+    std::error_code failed;
+    if (std::filesystem::is_directory(file, failed)) {
+        mName.clear();
+        enter(file);
+        return;
+    }
+    if (mKind == Kind::Save) {
+        const std::string lower = lowered(file.filename().string());
+        const bool hasSuffix = mSuffixes.empty() || std::any_of(mSuffixes.begin(), mSuffixes.end(),
+                                                                [&](const auto& suffix) {
+                                                                    return lower.ends_with(suffix);
+                                                                });
+        if (!hasSuffix) {
+            file += mSuffixes.front();
+            mName += mSuffixes.front();
+        }
+        if (std::filesystem::exists(file, failed) && !mMayReplace) {
+            mMayReplace = true;
+            mProblem = "This file exists. Save again to replace it.";
+            return;
+        }
+    } else if (!std::filesystem::exists(file, failed)) {
+        mProblem = "There is no such file.";
+        return;
+    }
+    mIsOpen = false;
+    mDone(file);
+}
+
+void FileDialog::drawPlaces(float scale) {
+    const auto place = [&](const char* label, const std::filesystem::path& folder) {
+        std::error_code failed;
+        if (!folder.empty() && std::filesystem::is_directory(folder, failed)) {
+            if (ImGui::Button(label)) {
+                enter(folder);
+            }
+            tooltip(folder.c_str());
+            ImGui::SameLine();
+        }
+    };
+    const char* const home = std::getenv("HOME");
+    const char* const models = std::getenv("CELADON_MODELS");
+    std::error_code failed;
+    place("Up", mFolder.parent_path());
+    place("Home", home != nullptr ? home : "");
+    place("Here", std::filesystem::current_path(failed));
+    place("Models", models != nullptr ? models : "");
+    ImGui::NewLine();
+    static_cast<void>(scale);
+    ImGui::TextDisabled("%s", mFolder.c_str());
+}
+
+void FileDialog::drawEntries(float height) {
+    if (!ImGui::BeginChild("##entries", {0.0f, height}, true)) {
+        ImGui::EndChild();
+        return;
+    }
+    std::filesystem::path next;
+    for (const Entry& entry : mEntries) {
+        const std::string label = entry.isFolder ? entry.name + "/" : entry.name;
+        if (entry.isFolder) {
+            ImGui::PushStyleColor(ImGuiCol_Text, colors::kAccent);
+        }
+        const bool isClicked = ImGui::Selectable(label.c_str(), entry.name == mName,
+                                                 ImGuiSelectableFlags_AllowDoubleClick);
+        if (entry.isFolder) {
+            ImGui::PopStyleColor();
+        } else {
+            const std::string size = sizeText(entry.bytes);
+            ImGui::SameLine(ImGui::GetWindowContentRegionMax().x -
+                            ImGui::CalcTextSize(size.c_str()).x);
+            ImGui::TextDisabled("%s", size.c_str());
+        }
+        if (isClicked && entry.isFolder) {
+            next = mFolder / entry.name;
+        } else if (isClicked) {
+            mName = entry.name;
+            mMayReplace = false;
+            if (mKind == Kind::Open && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+                choose();
+                break;
+            }
+        }
+    }
+    if (!next.empty()) {
+        enter(next);
+    }
+    ImGui::EndChild();
+}
+
+void FileDialog::draw(float scale) {
+    if (!mIsOpen) {
+        return;
+    }
+    const std::string id = mTitle + "##files";
+    if (mAppears) {
+        ImGui::OpenPopup(id.c_str());
+    }
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize(
+        {std::min(620.0f * scale, 0.96f * display.x), std::min(520.0f * scale, 0.94f * display.y)});
+    bool isShown = true;
+    if (ImGui::BeginPopupModal(id.c_str(), &isShown,
+                               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                   ImGuiWindowFlags_NoSavedSettings)) {
+        drawPlaces(scale);
+        const float below = 3.4f * ImGui::GetFrameHeightWithSpacing();
+        drawEntries(std::max(60.0f, ImGui::GetContentRegionAvail().y - below));
+        if (mAppears) {
+            ImGui::SetKeyboardFocusHere();
+            mAppears = false;
+        }
+        ImGui::SetNextItemWidth(-1.0f);
+        const bool isEntered = ImGui::InputTextWithHint("##name", "File name or path", &mName,
+                                                        ImGuiInputTextFlags_EnterReturnsTrue);
+        if (mProblem.empty()) {
+            ImGui::NewLine();
+        } else {
+            ImGui::TextColored(colors::kWarning, "%s", mProblem.c_str());
+        }
+        const float width = 110.0f * scale;
+        ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - 2.0f * width -
+                             ImGui::GetStyle().ItemSpacing.x);
+        const bool isCancelled = ImGui::Button("Cancel", {width, 0.0f}) ||
+                                 ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+        ImGui::SameLine();
+        ImGui::PushStyleColor(ImGuiCol_Button, colors::kAccentDim);
+        const bool isAccepted = ImGui::Button(mKind == Kind::Save ? "Save" : "Open", {width, 0.0f});
+        ImGui::PopStyleColor();
+        if (isEntered || isAccepted) {
+            choose();
+        } else if (isCancelled) {
+            mIsOpen = false;
+        }
+        if (!mIsOpen || !isShown) {
+            mIsOpen = false;
+            ImGui::CloseCurrentPopup();
+        }
+        ImGui::EndPopup();
+    } else {
+        mIsOpen = false;
+    }
+}
+
+} // namespace celadon::ui

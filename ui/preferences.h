@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// What a user has chosen for good. A JSON file; what it lacks or has wrong takes its default.
+namespace celadon::ui {
+
+struct Preferences {
+    double uiScale = 0.0; ///< 0: the display's
+    bool autosave = true; ///< journals of sessions, for recovery
+    double frameBudgetMs = 100.0;
+    std::vector<std::string> recentModels; ///< latest first
+    std::vector<std::string> recentMaterials;
+};
+
+[[nodiscard]] std::filesystem::path preferencesFile();
+[[nodiscard]] Preferences readPreferences(const std::filesystem::path& file);
+/// @throws OutputError
+void writePreferences(const Preferences& preferences, const std::filesystem::path& file);
+
+/// Puts an entry first; each once, so many at most.
+void addRecent(std::vector<std::string>& recent, const std::string& entry);
+
+} // namespace celadon::ui

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <filesystem>
+
+/// Where the platform keeps what belongs to the user (XDG Base Directory Specification 0.8).
+namespace celadon::ui {
+
+[[nodiscard]] std::filesystem::path configFolder(); ///< preferences
+[[nodiscard]] std::filesystem::path stateFolder();  ///< journals of sessions
+
+} // namespace celadon::ui
