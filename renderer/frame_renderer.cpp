@@ -40,10 +40,8 @@ StageMilliseconds sumStages(const std::vector<gl::StageTime>& stages, int splatt
     return sum;
 }
 
-} // namespace
-
 /// All that direct light depends on besides the world and the settings.
-static std::vector<double> directLightKey(const Camera& camera, std::span<const Light> lights) {
+std::vector<double> directLightKey(const Camera& camera, std::span<const Light> lights) {
     std::vector<double> key;
     const auto add = [&key](const glm::dvec3& v) { key.insert(key.end(), {v.x, v.y, v.z}); };
     add(camera.eye);
@@ -61,6 +59,8 @@ static std::vector<double> directLightKey(const Camera& camera, std::span<const 
     }
     return key;
 }
+
+} // namespace
 
 GpuScene::GpuScene(const World& theWorld, const FrameSettings& settings)
     : world(theWorld),
@@ -189,15 +189,19 @@ const gl::Texture* FrameRenderer::draw(const Camera& camera, std::span<const Lig
 
 RenderedFrame FrameRenderer::render(const Camera& camera, std::span<const Light> lights) {
     RenderedFrame frame;
+    const auto drawWhole = [&] {
+        mPasses->shadedKey.clear(); // the world may have moved; and a frame is timed as a whole
+        mPasses->draw(camera, lights);
+    };
     auto* splatting = dynamic_cast<SplattingSolver*>(mPasses->solver.get());
     if (mPasses->settings.statistics && splatting != nullptr) {
         splatting->collectStatistics(true); // the warm-up frame counts, the second is timed
-        mPasses->draw(camera, lights);
+        drawWhole();
         splatting->report(frame.stats);
         splatting->collectStatistics(false);
         static_cast<void>(mPasses->timer.take());
     }
-    mPasses->draw(camera, lights);
+    drawWhole();
     frame.stats.milliseconds = sumStages(mPasses->timer.take(), mPasses->view.levels());
     if (splatting == nullptr) {
         mPasses->solver->report(frame.stats);

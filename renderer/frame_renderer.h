@@ -28,7 +28,7 @@ struct FrameSettings {
     bool specular = true;
     int coverageSamples = 4;
     int shadowSize = 1024;
-    bool shadows = true; ///< of highlights and of what falls on opaque parts
+    bool shadows = true;     ///< of highlights and of what falls on opaque parts
     bool layers = false;     ///< read back what --aov writes
     bool statistics = false; ///< render a warm-up frame, count samples, pairs and flux
 };
@@ -65,7 +65,8 @@ public:
     /// @param camera in mm @param lights positions in mm
     [[nodiscard]] RenderedFrame render(const Camera& camera, std::span<const Light> lights);
 
-    /// The same for a window: nothing is read back.
+    /// The same for a window: nothing is read back, and highlights and direct light are kept while
+    /// camera and lights stay the same. For a world at rest, of which only materials change.
     /// @param interrupt see SolveInput; may be null
     /// @return RGBA32F, rows from the bottom, linear radiance, premultiplied; valid until the next
     ///         call. Null when interrupted.

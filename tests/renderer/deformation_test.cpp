@@ -165,6 +165,33 @@ TEST_F(DeformationTest, TheDeformedFrameIsThatOfTheSameShape) {
     EXPECT_GT(test::compareExitance(undeformed.image, expected.image).relativeRmse, 0.1);
 }
 
+// Highlights and shadows too: camera and lights stay, only the shape differs.
+TEST_F(DeformationTest, HighlightsMoveWithTheShape) {
+    World rest = makeWorld("builtin:vase", wax());
+    Motion motion(rest);
+    motion.setDeformers(deformers({"bend:y:40"}));
+    const Pose pose = motion.at(0.0);
+    const World posed = posedWorld(rest, pose);
+    FrameSettings settings = test::smallFrame({96, 96}, 64, Scheme::Hierarchical);
+    settings.specular = true;
+    settings.shadowSize = 256;
+    const Camera camera = test::defaultCamera(posed, settings.size);
+    const std::vector<Light> lights{test::frontLight()};
+    const FloatImage expected =
+        extractLayer(test::renderFrame(context(), posed, settings, camera, lights).image, "");
+
+    const auto scene = std::make_shared<const GpuScene>(rest, settings);
+    FrameRenderer renderer(context(), scene, settings);
+    static_cast<void>(renderer.render(camera, lights));
+    GpuDeformation deformation(scene->shaders, rest, scene->gpuWorld);
+    const GpuDeformation::Bounds bounds = deformation.apply(pose);
+    rest.scatteringSphere = bounds.scattering;
+    rest.sceneSphere = bounds.scene;
+    const FloatImage moved = extractLayer(renderer.render(camera, lights).image, "");
+    // Normals differ in their last bits, and highlights are sharp.
+    EXPECT_LT(compareValues(moved, expected).relativeRmse, 0.01);
+}
+
 TEST_F(DeformationTest, LightThroughAPlateFollowsItsThickness) {
     const MaterialPointer deep = test::makeMaterial("deep", 1, 48, 60.0f, [](int, int) {
         return test::ProfileRecipe{glm::dvec3(0.8), glm::dvec3(4.0)};
