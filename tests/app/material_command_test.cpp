@@ -4,8 +4,8 @@
 #include "subedit/models/half_space.h"
 #include "subedit/presets.h"
 #include "subedit/radius_map.h"
+#include "tests/support/command_fixture.h"
 #include "tests/support/images.h"
-#include "tests/support/program.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -20,32 +20,13 @@ namespace {
 using namespace subedit;
 using test::ProgramResult;
 using test::runInProcess;
+using test::Words;
 using testing::AllOf;
 using testing::HasSubstr;
-using Words = std::vector<std::string>;
 
-class MaterialCommand : public testing::Test {
+class MaterialCommand : public test::CommandTest {
 protected:
-    std::string file(const std::string& name) const { return (folder / name).string(); }
-
-    static ProgramResult run(Words words) {
-        words.insert(words.begin(), "material");
-        return runInProcess(words);
-    }
-    static ProgramResult expectDone(const Words& words) {
-        ProgramResult result = run(words);
-        EXPECT_EQ(result.exitCode, 0) << result.err;
-        return result;
-    }
-    static void expectRefused(const Words& words, int code,
-                              const testing::Matcher<std::string>& says) {
-        const ProgramResult result = run(words);
-        EXPECT_EQ(result.exitCode, code) << result.err;
-        EXPECT_EQ(result.out, "");
-        EXPECT_THAT(result.err, says);
-    }
-
-    test::TemporaryFolder folder;
+    MaterialCommand() : CommandTest("material") {}
 };
 
 TEST_F(MaterialCommand, BakeTakesCoefficients) {

@@ -5,7 +5,7 @@
 #include "subedit/map/range_table_file.h"
 #include "subedit/models/half_space.h"
 #include "subedit/radius_map.h"
-#include "tests/support/program.h"
+#include "tests/support/command_fixture.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,33 +19,14 @@ namespace {
 using namespace subedit;
 using test::ProgramResult;
 using test::runInProcess;
+using test::Words;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
-using Words = std::vector<std::string>;
 
-class ProfileCommand : public testing::Test {
+class ProfileCommand : public test::CommandTest {
 protected:
-    std::string file(const std::string& name) const { return (folder / name).string(); }
-
-    static ProgramResult run(Words words) {
-        words.insert(words.begin(), "profile");
-        return runInProcess(words);
-    }
-    static ProgramResult expectDone(const Words& words) {
-        ProgramResult result = run(words);
-        EXPECT_EQ(result.exitCode, 0) << result.err;
-        return result;
-    }
-    static void expectRefused(const Words& words, int code,
-                              const testing::Matcher<std::string>& says) {
-        const ProgramResult result = run(words);
-        EXPECT_EQ(result.exitCode, code) << result.err;
-        EXPECT_EQ(result.out, "");
-        EXPECT_THAT(result.err, says);
-    }
-
-    test::TemporaryFolder folder;
+    ProfileCommand() : CommandTest("profile") {}
 };
 
 const Words kMedium{"--absorption", "0.05", "--reduced-scattering", "0.95", "--eta", "1.4"};

@@ -9,6 +9,7 @@
 #include "subedit/models/quantized_diffusion.h"
 #include "subedit/models/single_scattering.h"
 #include "subedit/presets.h"
+#include "tests/support/curves.h"
 
 #include <gtest/gtest.h>
 
@@ -18,21 +19,11 @@
 namespace celadon::subedit {
 namespace {
 
+using test::integrate;
+
 using Model = RadialCurves (*)(const Medium&);
 
 constexpr Model kModels[] = {betterDipoleProfile, quantizedDiffusionProfile, photonBeamProfile};
-
-/// Midpoint rule over ln r.
-double integrate(const RadialCurve& curve, double from, double to) {
-    constexpr int kSteps = 4000;
-    const double step = std::log(to / from) / kSteps;
-    double sum = 0.0;
-    for (int i = 0; i < kSteps; ++i) {
-        const double r = from * std::exp((i + 0.5) * step);
-        sum += curve.reflectance(r) * r * r * step;
-    }
-    return 2.0 * std::numbers::pi * sum;
-}
 
 TEST(GaussLegendre, IsExactForPolynomials) {
     std::vector<QuadratureNode> nodes;
@@ -79,8 +70,8 @@ TEST(BeamModels, EnergiesAreIntegralsOfP) {
     for (const Model model : kModels) {
         const RadialCurves curves = model(marble);
         for (const RadialCurve& curve : curves) {
-            EXPECT_NEAR(integrate(curve, 1e-6, 3.0) / curve.energyWithin(3.0), 1.0, 1e-3);
-            EXPECT_NEAR(integrate(curve, 1e-6, 1000.0) / curve.total, 1.0, 1e-3);
+            EXPECT_NEAR(integrate(curve, 1e-6, 3.0, 4000) / curve.energyWithin(3.0), 1.0, 1e-3);
+            EXPECT_NEAR(integrate(curve, 1e-6, 1000.0, 4000) / curve.total, 1.0, 1e-3);
         }
     }
 }

@@ -3,26 +3,16 @@
 #include "subedit/models/dipole.h"
 #include "subedit/models/normalized_diffusion.h"
 #include "subedit/presets.h"
+#include "tests/support/curves.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 namespace celadon::subedit {
 namespace {
 
-/// Midpoint rule over ln r, which suits peaks at 0 and long tails.
-double integrate(const RadialCurve& curve, double from, double to) {
-    constexpr int kSteps = 20000;
-    const double step = std::log(to / from) / kSteps;
-    double sum = 0.0;
-    for (int i = 0; i < kSteps; ++i) {
-        const double r = from * std::exp((i + 0.5) * step);
-        sum += curve.reflectance(r) * r * r * step;
-    }
-    return 2.0 * std::numbers::pi * sum;
-}
+using test::integrate;
 
 TEST(Dipole, TotalsAgreeWithTheTableOfMeasuredMedia) {
     for (const MediumPreset& preset : mediumPresets()) {
