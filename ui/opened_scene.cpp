@@ -2,74 +2,13 @@
 
 #include "renderer/scene/surface_atlas_of_world.h"
 #include "subedit/errors.h"
-
-#include <tbb/parallel_for.h>
+#include "subedit/map/material_convert.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace celadon::ui {
 
-namespace {
-
 using subedit::MaterialMap;
-
-/// Bilinear, repeating: the convention of MaterialMap::sampleLogProfile, for single numbers.
-std::vector<float> enlargedLayer(const std::vector<float>& layer, const MaterialMap& map, int width,
-                                 int height) {
-    if (layer.empty()) {
-        return {};
-    }
-    const auto wrapped = [](int i, int n) { return (i % n + n) % n; };
-    std::vector<float> result;
-    result.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    for (int y = 0; y < height; ++y) {
-        const float v = (static_cast<float>(y) + 0.5f) / static_cast<float>(height) *
-                            static_cast<float>(map.height) -
-                        0.5f;
-        const int y0 = static_cast<int>(std::floor(v));
-        const float ty = v - static_cast<float>(y0);
-        for (int x = 0; x < width; ++x) {
-            const float u = (static_cast<float>(x) + 0.5f) / static_cast<float>(width) *
-                                static_cast<float>(map.width) -
-                            0.5f;
-            const int x0 = static_cast<int>(std::floor(u));
-            const float tx = u - static_cast<float>(x0);
-            const auto at = [&](int i, int j) {
-                return layer[static_cast<std::size_t>(wrapped(j, map.height) * map.width +
-                                                      wrapped(i, map.width))];
-            };
-            const float top = at(x0, y0) + tx * (at(x0 + 1, y0) - at(x0, y0));
-            const float bottom = at(x0, y0 + 1) + tx * (at(x0 + 1, y0 + 1) - at(x0, y0 + 1));
-            result.push_back(top + ty * (bottom - top));
-        }
-    }
-    return result;
-}
-
-} // namespace
-
-MaterialMap enlarged(const MaterialMap& map, int width, int height) {
-    MaterialMap result;
-    result.name = map.name;
-    result.width = width;
-    result.height = height;
-    result.segments = map.segments;
-    result.maxRadiusMm = map.maxRadiusMm;
-    result.eta = map.eta;
-    result.roughness = enlargedLayer(map.roughness, map, width, height);
-    result.specular = enlargedLayer(map.specular, map, width, height);
-    result.logProfile.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
-                             static_cast<std::size_t>(map.knots()) * 3);
-    tbb::parallel_for(0, height, [&](int y) {
-        for (int x = 0; x < width; ++x) {
-            const glm::vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
-                               (static_cast<float>(y) + 0.5f) / static_cast<float>(height));
-            map.sampleLogProfile(uv, result.logProfile.data() + result.index(x, y, 0));
-        }
-    });
-    return result;
-}
 
 OpenedScene prepareScene(World world, bool paintable) {
     OpenedScene scene;
@@ -83,7 +22,7 @@ OpenedScene prepareScene(World world, bool paintable) {
                 auto surface = std::make_shared<subedit::Surface>(
                     makeSurfaceAtlas(world, static_cast<int>(i), width, height));
                 document = std::make_unique<subedit::Document>(
-                    width == map.width && height == map.height ? map : enlarged(map, width, height),
+                    subedit::convertMaterial(map, {.width = width, .height = height}),
                     std::move(surface));
             } catch (const InputError& error) {
                 world.warnings.push_back("material '" + map.name +

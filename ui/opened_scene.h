@@ -24,7 +24,4 @@ inline constexpr int kPaintableTexels = 512;
 /// @param paintable false: materials stay as they are, and there are no documents
 [[nodiscard]] OpenedScene prepareScene(World world, bool paintable);
 
-/// The same material on more texels: ln P interpolated, as between texels everywhere.
-[[nodiscard]] subedit::MaterialMap enlarged(const subedit::MaterialMap& map, int width, int height);
-
 } // namespace celadon::ui

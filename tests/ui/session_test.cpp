@@ -1,5 +1,6 @@
 #include "renderer/scene/builtin.h"
 #include "subedit/errors.h"
+#include "subedit/map/material_convert.h"
 #include "subedit/map/material_file.h"
 #include "tests/support/temporary_folder.h"
 #include "ui/session.h"
@@ -182,7 +183,8 @@ TEST(OpenedScene, EnlargingKeepsTheMaterialAtTheCentersOfItsTexels) {
     for (int i = 0; i < 4 * 2 * 3; ++i) {
         map.logProfile.push_back(-static_cast<float>(i));
     }
-    const subedit::MaterialMap large = enlarged(map, 6, 6); // centers coincide at odd factors
+    const subedit::MaterialMap large = // centers coincide at odd factors
+        subedit::convertMaterial(map, {.width = 6, .height = 6});
     for (int y = 0; y < 2; ++y) {
         for (int x = 0; x < 2; ++x) {
             for (int k = 0; k < 2; ++k) {
