@@ -46,7 +46,7 @@ void refuseUnbuilt(const RenderOptions& options) {
 }
 
 FrameSettings frameSettings(const RenderOptions& options) {
-    FrameSettings settings;
+    FrameSettings settings = celadon::frameSettings(options.quality);
     settings.size = options.size;
     switch (options.solver) {
     case Solver::ImageReference:
@@ -61,21 +61,10 @@ FrameSettings frameSettings(const RenderOptions& options) {
         break;
     }
     SplattingSettings& splatting = settings.splatting;
-    splatting.scheme = options.scheme;
     splatting.backend = options.backend;
-    if (options.scheme == Scheme::Hierarchical) {
-        splatting.energy = 1.0; // far samples are cheap: nothing is cut
-    }
-    if (options.quality == Quality::Draft) {
-        splatting.irradianceSize = 256;
-        splatting.alpha = 8.0;
-        splatting.sampleAngle = 3.0;
-        splatting.fade = 0.3;
-    } else if (options.quality == Quality::Final) {
-        splatting.irradianceSize = 1024;
-        splatting.sampleAngle = 1.4;
-        splatting.pixelAngle = 0.16;
-        settings.shadowSize = 2048;
+    if (options.scheme == Scheme::Paper) {
+        splatting.scheme = Scheme::Paper;
+        splatting.energy = SplattingSettings().energy;
     }
     splatting.irradianceSize = options.irradianceSize.value_or(splatting.irradianceSize);
     if (options.levels) {

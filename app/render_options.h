@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/argument.h"
+#include "renderer/frame_quality.h"
 #include "renderer/gl/context.h"
 #include "renderer/output/tone_map.h"
 #include "renderer/shading/fresnel.h"
@@ -24,7 +25,6 @@ class App;
 namespace celadon::app {
 
 enum class Solver { Splatting, ImageReference, SurfaceReference, PathTraced };
-enum class Quality { Draft, Default, Final };
 
 [[nodiscard]] const char* solverName(Solver solver);
 [[nodiscard]] const char* schemeName(Scheme scheme);

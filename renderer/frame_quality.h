@@ -7,10 +7,10 @@
 namespace celadon {
 
 enum class Quality {
-    Sketch, ///< for a moving hand: coarse light, no antialiasing
     Draft,
     Default,
-    Final
+    Final,
+    Sketch ///< not a word of --quality: for a moving hand, coarse light, no antialiasing
 };
 
 /// Settings of the hierarchical scheme. Size is left as it is by default.

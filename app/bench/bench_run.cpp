@@ -64,32 +64,23 @@ double flipOf(const FloatImage& image, const FloatImage& truth) {
 BenchTime timeOf(const gl::Context& context, const World& world, FrameSettings settings,
                  glm::ivec2 size, int frames) {
     settings.size = size;
+    settings.statistics = true; // each frame is drawn twice: counted, which warms up, then timed
     const View view = viewOf(world, size);
     FrameRenderer renderer(context, world, settings);
-    settings.statistics = true;
-    static_cast<void>(renderer.render(view.camera, view.lights)); // warms up
+    BenchTime time;
     std::vector<StageMilliseconds> times;
     for (int i = 0; i < frames; ++i) {
-        times.push_back(renderer.render(view.camera, view.lights).stats.milliseconds);
+        const FrameStats stats = renderer.render(view.camera, view.lights).stats;
+        times.push_back(stats.milliseconds);
+        time.pairs = stats.samples.pairs;
     }
     std::ranges::sort(times, {}, &StageMilliseconds::total);
-    BenchTime time;
     time.stages = times[times.size() / 2];
     time.medianMs = time.stages.total;
     time.leastMs = times.front().total;
     time.greatestMs = times.back().total;
     time.frames = frames;
     return time;
-}
-
-std::uint64_t pairsOf(const gl::Context& context, const World& world, FrameSettings settings,
-                      glm::ivec2 size) {
-    settings.size = size;
-    settings.statistics = true;
-    const View view = viewOf(world, size);
-    return FrameRenderer(context, world, settings)
-        .render(view.camera, view.lights)
-        .stats.samples.pairs;
 }
 
 } // namespace
@@ -133,9 +124,6 @@ SceneResult runScene(const gl::Context& context, const BenchScene& scene,
         }
         measured.time = timeOf(context, loaded.world, method.settings, options.size,
                                method.isSlow ? 1 : options.repeats);
-        if (!method.isSlow) {
-            measured.time.pairs = pairsOf(context, loaded.world, method.settings, options.size);
-        }
         result.methods.push_back(measured);
     }
     return result;
