@@ -65,7 +65,6 @@ GpuMaterials::GpuMaterials(std::span<const MaterialPointer> materials, double en
     }
     std::vector<blocks::MaterialEntry> entries;
     std::vector<float> tables;
-    mKnotSpacingMm = 1e30f;
     for (const MaterialPointer& material : materials) {
         const subedit::MaterialMap& map = *material;
         checkSize(map);
@@ -99,9 +98,6 @@ GpuMaterials::GpuMaterials(std::span<const MaterialPointer> materials, double en
         mTableSize = made.rangeTable.size();
         tables.insert(tables.end(), made.rangeTable.begin(), made.rangeTable.end());
         mMeanRadiusMm += made.meanRadiusMm / static_cast<float>(materials.size());
-        mKnotSpacingMm =
-            std::min(mKnotSpacingMm, map.maxRadiusMm / static_cast<float>(map.segments));
-        mLargestRadiusMm = std::max(mLargestRadiusMm, map.maxRadiusMm);
     }
     mRangeTable = gl::Texture::make2d(
         "range table", GL_R32F,
@@ -109,6 +105,7 @@ GpuMaterials::GpuMaterials(std::span<const MaterialPointer> materials, double en
     mRangeTable.upload(0, tables);
     mRangeTables = std::move(tables);
     mBlock = gl::Buffer::of("materials", entries);
+    mCommonKnots = celadon::commonKnots(materials);
     mHomogeneous = materials.size() == 1 && materials[0]->isHomogeneous();
 }
 
@@ -143,11 +140,6 @@ void GpuMaterials::bind() const {
 void GpuMaterials::bindRangeTable(GLuint unit) const {
     mRangeTable.bind(unit);
     mTableSampler.bind(unit);
-}
-
-int GpuMaterials::nodeSegments() const {
-    return std::clamp(static_cast<int>(std::lround(mLargestRadiusMm / mKnotSpacingMm)), 1,
-                      subedit::kMaxSegments);
 }
 
 float GpuMaterials::minimalRadius(float pixelsPerRadius, int material) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "renderer/gather/gather_materials.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/sampler.h"
 #include "renderer/gl/texture.h"
@@ -36,10 +37,8 @@ public:
     /// One material of one texel: profiles need no map.
     [[nodiscard]] bool isHomogeneous() const { return mHomogeneous; }
     [[nodiscard]] float meanRadiusMm() const { return mMeanRadiusMm; }
-    [[nodiscard]] float shortestKnotSpacingMm() const { return mKnotSpacingMm; }
-    [[nodiscard]] float largestRadiusMm() const { return mLargestRadiusMm; } ///< largest r_s
-    /// Knots that node profiles share: r_s the largest, spacing the finest, at most 256 segments.
-    [[nodiscard]] int nodeSegments() const;
+    /// Knots that node profiles share.
+    [[nodiscard]] const gather::Knots& commonKnots() const { return mCommonKnots; }
     /// Rbar(T) (eq. 14).
     [[nodiscard]] float minimalRadius(float pixelsPerRadius, int material = 0) const;
 
@@ -54,8 +53,7 @@ private:
     double mEnergy = 1.0;
     bool mHomogeneous = false;
     float mMeanRadiusMm = 0.0f;
-    float mKnotSpacingMm = 0.0f;
-    float mLargestRadiusMm = 0.0f;
+    gather::Knots mCommonKnots;
 };
 
 } // namespace celadon

@@ -38,6 +38,20 @@ gather::Knots knotsOf(const subedit::MaterialMap& map) {
 
 } // namespace
 
+gather::Knots commonKnots(std::span<const MaterialPointer> materials) {
+    gather::Knots common;
+    float finest = 0.0f;
+    for (const MaterialPointer& material : materials) {
+        const gather::Knots own = knotsOf(*material);
+        common.rangeMm = std::max(common.rangeMm, own.rangeMm);
+        finest = std::max(finest, own.perMm);
+    }
+    common.segments = std::clamp(static_cast<int>(std::lround(common.rangeMm * finest)), 1,
+                                 subedit::kMaxSegments);
+    common.perMm = static_cast<float>(common.segments) / common.rangeMm;
+    return common;
+}
+
 GatherMaterials::GatherMaterials(std::span<const MaterialPointer> materials)
     : mMaterials(materials.begin(), materials.end()) {
     update();
@@ -45,22 +59,14 @@ GatherMaterials::GatherMaterials(std::span<const MaterialPointer> materials)
 
 void GatherMaterials::update() {
     mHomogeneous = mMaterials.size() == 1 && mMaterials[0]->isHomogeneous();
-    mCommon = {};
-    mLargestProfile = 0;
+    mCommon = celadon::commonKnots(mMaterials);
+    mLargestProfile = static_cast<std::size_t>(mCommon.segments + 1) * 3;
     float largest = subedit::kLogProfileFloor;
-    float finest = 0.0f;
     for (const MaterialPointer& material : mMaterials) {
-        const gather::Knots own = knotsOf(*material);
-        mCommon.rangeMm = std::max(mCommon.rangeMm, own.rangeMm);
-        finest = std::max(finest, own.perMm);
         largest = std::max(largest, *std::ranges::max_element(material->logProfile));
         mLargestProfile =
             std::max(mLargestProfile, static_cast<std::size_t>(material->knots()) * 3);
     }
-    mCommon.segments = std::clamp(static_cast<int>(std::lround(mCommon.rangeMm * finest)), 1,
-                                  subedit::kMaxSegments);
-    mCommon.perMm = static_cast<float>(mCommon.segments) / mCommon.rangeMm;
-    mLargestProfile = std::max(mLargestProfile, static_cast<std::size_t>(mCommon.segments + 1) * 3);
     mScale.offset = subedit::kLogProfileFloor;
     mScale.step = (largest + kRoomAbove - subedit::kLogProfileFloor) / kLargestCode;
     const float halfLog2e = 0.5f * std::numbers::log2e_v<float>;

@@ -9,6 +9,10 @@
 /// The scene's SubEdit materials as the CPU backend reads them. No GL here.
 namespace celadon {
 
+/// Knots that the nodes above level 0 share, on every backend: r_s the largest of the materials,
+/// spacing the finest, at most 256 segments.
+[[nodiscard]] gather::Knots commonKnots(std::span<const MaterialPointer> materials);
+
 class GatherMaterials {
 public:
     /// Keeps pointers: texels edited in place are seen by the next solve, see update().
@@ -22,8 +26,6 @@ public:
     }
     /// One material of one texel: all profiles are one, at code 0.
     [[nodiscard]] bool isHomogeneous() const { return mHomogeneous; }
-    /// Knots that nodes above level 0 share: r_s the largest, spacing the finest, at most 256
-    /// segments, as GpuMaterials::nodeSegments.
     [[nodiscard]] const gather::Knots& commonKnots() const { return mCommon; }
     [[nodiscard]] gather::Knots knots(int material) const;
     [[nodiscard]] const gather::CodeScale& scale() const { return mScale; }

@@ -29,21 +29,14 @@ struct Lanes {
     static int count(Mask m) { return __builtin_popcount(unsigned(_mm256_movemask_ps(m))); }
     static Float select(Mask m, Float a, Float b) { return _mm256_blendv_ps(b, a, m); }
     static Float sqrt(Float x) { return _mm256_sqrt_ps(x); }
-    static Float divide(Float a, Float b) { return a / b; }
-    /// 2^x, relative error 2e-7; 0 below 2^-126.
-    static Float exp2(Float x) {
-        const Float clamped = maximum(x, set(-126.0f));
-        const Float n = _mm256_round_ps(clamped, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
-        const Float f = clamped - n;
-        Float p = f * set(1.5403530e-4f) + set(1.3333558e-3f);
-        p = p * f + set(9.6181291e-3f);
-        p = p * f + set(5.5504109e-2f);
-        p = p * f + set(2.4022651e-1f);
-        p = p * f + set(6.9314718e-1f);
-        p = p * f + set(1.0f);
+    static Float round(Float x) { ///< to the nearest
+        return _mm256_round_ps(x, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+    }
+    /// x 2^n for whole n in [-126, 127].
+    static Float scale(Float x, Float n) {
         const Int exponent =
             _mm256_slli_epi32(_mm256_add_epi32(_mm256_cvtps_epi32(n), _mm256_set1_epi32(127)), 23);
-        return p * _mm256_castsi256_ps(exponent);
+        return x * _mm256_castsi256_ps(exponent);
     }
     static Int toInt(Float x) { return _mm256_cvttps_epi32(x); } ///< towards zero
     static Float toFloat(Int x) { return _mm256_cvtepi32_ps(x); }

@@ -33,19 +33,9 @@ struct Lanes {
         const Float r = _mm512_rsqrt14_ps(safe);
         return safe * (r * (set(1.5f) - set(0.5f) * safe * r * r));
     }
-    static Float divide(Float a, Float b) { return a / b; }
-    /// 2^x, relative error 2e-7.
-    static Float exp2(Float x) {
-        const Float n = _mm512_roundscale_ps(x, 0);
-        const Float f = x - n;
-        Float p = f * set(1.5403530e-4f) + set(1.3333558e-3f);
-        p = p * f + set(9.6181291e-3f);
-        p = p * f + set(5.5504109e-2f);
-        p = p * f + set(2.4022651e-1f);
-        p = p * f + set(6.9314718e-1f);
-        p = p * f + set(1.0f);
-        return _mm512_scalef_ps(p, n);
-    }
+    static Float round(Float x) { return _mm512_roundscale_ps(x, 0); } ///< to the nearest
+    /// x 2^n for whole n.
+    static Float scale(Float x, Float n) { return _mm512_scalef_ps(x, n); }
     static Int toInt(Float x) { return _mm512_cvttps_epi32(x); } ///< towards zero
     static Float toFloat(Int x) { return _mm512_cvtepi32_ps(x); }
     static Int iota() {

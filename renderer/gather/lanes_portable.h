@@ -44,21 +44,13 @@ struct Lanes {
         }
         return out;
     }
-    static Float divide(Float a, Float b) { return a / b; }
-    /// 2^x, relative error 2e-7; 2^-126 below that.
-    static Float exp2(Float x) {
-        constexpr float kRound =
-            12582912.0f; // 1.5 * 2^23: its sum has the rounded x in its low bits
-        const Float shifted = maximum(x, set(-126.0f)) + kRound;
-        const Float f = maximum(x, set(-126.0f)) - (shifted - kRound);
-        Float p = f * 1.5403530e-4f + 1.3333558e-3f;
-        p = p * f + 9.6181291e-3f;
-        p = p * f + 5.5504109e-2f;
-        p = p * f + 2.4022651e-1f;
-        p = p * f + 6.9314718e-1f;
-        p = p * f + 1.0f;
-        return reinterpret_cast<Float>(reinterpret_cast<Int>(p) +
-                                       (reinterpret_cast<Int>(shifted) << 23));
+    static Float round(Float x) {             ///< to the nearest, |x| < 2^22
+        constexpr float kRound = 12582912.0f; // 1.5 * 2^23
+        return (x + kRound) - kRound;
+    }
+    /// x 2^n for whole n in [-126, 127].
+    static Float scale(Float x, Float n) {
+        return x * reinterpret_cast<Float>((__builtin_convertvector(n, Int) + 127) << 23);
     }
     static Int toInt(Float x) { return __builtin_convertvector(x, Int); } ///< towards zero
     static Float toFloat(Int x) { return __builtin_convertvector(x, Float); }

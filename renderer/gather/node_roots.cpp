@@ -3,6 +3,7 @@
 // shaders/node_radii.comp.
 #include "renderer/gather/morton.h"
 #include "renderer/gather/sample_tree.h"
+#include "subedit/log_linear.h"
 #include "subedit/multiversion.h"
 
 #include <oneapi/tbb/parallel_for.h>
@@ -113,16 +114,11 @@ Radii radiiOf(const float* roots, const float* logP, int segments, float h, doub
         for (int k = 0; k < whole; ++k) {
             inside += energy[c][k];
         }
-        // Of the segment that R_cut ends in, the same closed form over its part.
-        const float t = position - static_cast<float>(whole);
         const int first = c * (segments + 1) + whole;
-        const float s = (logP[first + 1] - logP[first]) * t;
-        const float e = std::exp(s);
-        const bool small = std::abs(s) < 0.02f;
-        const float m0 = small ? 1.0f + s * (0.5f + s / 6.0f) : (e - 1.0f) / s;
-        const float m1 =
-            small ? 0.5f + s * (1.0f / 3.0f + s / 8.0f) : (e * (s - 1.0f) + 1.0f) / (s * s);
-        inside += std::exp(logP[first]) * t * h * (static_cast<float>(whole) * h * m0 + t * h * m1);
+        inside += static_cast<float>(subedit::pieceEnergy(
+            static_cast<double>(logP[first]), static_cast<double>(logP[first + 1]),
+            static_cast<double>(static_cast<float>(whole) * h), static_cast<double>(h),
+            static_cast<double>(position - static_cast<float>(whole))));
         radii.kept[c] = std::clamp(inside / std::max(total[c], 1e-30f), 0.5f, 1.0f);
     }
     return radii;

@@ -1,8 +1,5 @@
 #include "renderer/gather/tile.h"
 
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 
 namespace celadon {
@@ -17,14 +14,6 @@ glm::ivec2 pixelOf(int lane) {
 }
 
 } // namespace
-
-glm::vec2 Bounds::distances(const float* p) const {
-    const glm::vec3 point(p[0], p[1], p[2]);
-    const glm::vec3 below = low - point;
-    const glm::vec3 above = point - high;
-    return {glm::length(glm::max(glm::max(below, above), glm::vec3(0.0f))),
-            glm::length(glm::max(glm::abs(below), glm::abs(above)))};
-}
 
 TileLoader::TileLoader(const GatherMaterials& materials)
     : mMaterials(materials),

@@ -1,21 +1,11 @@
 #pragma once
 
 #include "renderer/gather/tile_gather.h"
+#include "renderer/scene/point_bounds.h"
 
 #include <vector>
 
 namespace celadon {
-
-struct Bounds {
-    glm::vec3 low{1e30f}, high{-1e30f};
-
-    void add(glm::vec3 p) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    /// Least and greatest distance of a point from the box.
-    [[nodiscard]] glm::vec2 distances(const float* p) const;
-};
 
 /// Pixels of a tile in the order of the kernel's lanes: 4 x 4 (or two 4 x 2) side by side, so that
 /// the lanes of one vector are near each other.
@@ -29,7 +19,7 @@ public:
     void store(const ViewTexels& level, glm::ivec2 corner, std::uint64_t pairs) const;
 
     gather::Tile tile{};
-    Bounds bounds;
+    PointBounds bounds;
 
 private:
     const GatherMaterials& mMaterials;

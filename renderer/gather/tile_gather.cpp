@@ -2,7 +2,7 @@
 
 #include "renderer/gather/tile.h"
 
-#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
@@ -27,7 +27,7 @@ public:
           mRangeMm(materials.commonKnots().rangeMm),
           mLevels(splattingLevels) {}
 
-    const std::vector<Candidate>& find(const Bounds& bounds, int splattingLevel) {
+    const std::vector<Candidate>& find(const PointBounds& bounds, int splattingLevel) {
         mBounds = bounds;
         mLevel = splattingLevel;
         mFound.clear();
@@ -64,7 +64,7 @@ private:
                            float parentNearest) {
         const SampleTree::Level& nodes = mTree.levels()[level];
         const TreeNode& node = nodes.nodes[index];
-        const glm::vec2 distances = mBounds.distances(node.position);
+        const glm::vec2 distances = mBounds.distances(glm::make_vec3(node.position));
         const float nearest = distances.x;
         const float farthest = distances.y;
         if (nearest - node.extent >= mRangeMm) {
@@ -115,7 +115,7 @@ private:
     void visitPaper(std::size_t level, std::uint32_t index) {
         const SampleTree::Level& nodes = mTree.levels()[level];
         const TreeNode& node = nodes.nodes[index];
-        const glm::vec2 distances = mBounds.distances(node.position);
+        const glm::vec2 distances = mBounds.distances(glm::make_vec3(node.position));
         if (distances.x - node.extent >= node.reach) {
             return;
         }
@@ -148,7 +148,7 @@ private:
     float mRangeMm;
     int mLevels;
     int mLevel = 0;
-    Bounds mBounds;
+    PointBounds mBounds;
     const gather::Sample* mParentSample = nullptr;
     std::vector<Candidate> mFound;
 };

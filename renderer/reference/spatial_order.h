@@ -1,32 +1,15 @@
 #pragma once
 
-#include <glm/common.hpp>
-#include <glm/vec3.hpp>
+#include "renderer/scene/point_bounds.h"
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
 /// Points along a Morton curve, so that a run of them is near each other.
 namespace celadon {
-
-struct PointBounds {
-    glm::vec3 low{std::numeric_limits<float>::infinity()};
-    glm::vec3 high{-std::numeric_limits<float>::infinity()};
-
-    void add(glm::vec3 p) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    [[nodiscard]] float squaredDistance(const PointBounds& other) const {
-        const glm::vec3 gap =
-            glm::max(glm::max(low - other.high, other.low - high), glm::vec3(0.0f));
-        return gap.x * gap.x + gap.y * gap.y + gap.z * gap.z;
-    }
-};
 
 /// Interleaved 16-bit cells of the position within the bounds, x lowest.
 [[nodiscard]] std::uint64_t mortonKey(glm::vec3 position, const PointBounds& bounds);

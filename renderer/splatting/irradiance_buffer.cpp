@@ -5,14 +5,10 @@
 
 namespace celadon {
 
-namespace {
-
-int padded(int size, int levels) {
+glm::ivec2 paddedSize(glm::ivec2 size, int levels) {
     const int unit = 1 << (levels - 1);
     return (size + unit - 1) / unit * unit;
 }
-
-} // namespace
 
 void dispatchOver(glm::ivec2 size, int layers) {
     glDispatchCompute(static_cast<GLuint>((size.x + 7) / 8), static_cast<GLuint>((size.y + 7) / 8),
@@ -23,7 +19,7 @@ IrradianceBuffer::IrradianceBuffer(const gl::ShaderLibrary& shaders, int materia
                                    int levels)
     : mSize(size),
       mLevels(levels),
-      mPaddedSize(padded(size, levels)),
+      mPaddedSize(celadon::paddedSize(glm::ivec2(size), levels).x),
       mLightBlock("light", sizeof(blocks::LightBlock), gl::BufferUse::Update),
       mDraw("irradiance buffer", shaders, {"surface.vert", "irradiance_buffer.frag"},
             {{"MATERIAL_COUNT", std::to_string(materialCount)}}),

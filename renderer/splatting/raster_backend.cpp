@@ -18,7 +18,8 @@ RasterBackend::RasterBackend(const gl::ShaderLibrary& shaders, const GpuMaterial
       mSelection(shaders, mIrradiance, settings.scheme),
       mSplat(shaders, materials, view, settings.scheme) {
     if (!materials.isHomogeneous() && mIrradiance.levels() > 1) {
-        mProfiles.emplace(shaders, mIrradiance, materials.count(), materials.nodeSegments());
+        mProfiles.emplace(shaders, mIrradiance, materials.count(),
+                          materials.commonKnots().segments);
     }
     if (settings.scheme == Scheme::Hierarchical) {
         mBalls.emplace(shaders, mIrradiance);

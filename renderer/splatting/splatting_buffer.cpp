@@ -15,11 +15,6 @@ namespace {
 constexpr int kGeometryTargets = 3; ///< of the targets, those with mips
 constexpr int kTilePx = 8;          ///< as tile_range.comp has it
 
-glm::ivec2 padded(glm::ivec2 size, int levels) {
-    const int unit = 1 << (levels - 1);
-    return (size + unit - 1) / unit * unit;
-}
-
 } // namespace
 
 blocks::FrameBlock makeFrameBlock(const CameraView& view, glm::ivec2 size, glm::ivec2 paddedSize,
@@ -39,7 +34,7 @@ SplattingBuffer::SplattingBuffer(const gl::ShaderLibrary& shaders, int materialC
                                  glm::ivec2 size, int levels)
     : mSize(size),
       mLevels(levels),
-      mPaddedSize(padded(size, levels)),
+      mPaddedSize(celadon::paddedSize(size, levels)),
       mFrameBlock("frame", sizeof(blocks::FrameBlock), gl::BufferUse::Update),
       mDraw("splatting buffer", shaders, {"surface.vert", "splatting_buffer.frag"},
             {{"CAMERA", "1"}, {"MATERIAL_COUNT", std::to_string(materialCount)}}),

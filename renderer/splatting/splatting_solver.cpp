@@ -43,8 +43,9 @@ void SplattingSolver::writeSolveBlock(const SolveInput& input) {
     blocks::SolveBlock block;
     block.selection =
         glm::vec4(mSettings.alpha, mSettings.discontinuity * radius, 2.0 * radius, 0.0);
-    block.node = glm::vec4(input.materials.largestRadiusMm(), float(input.materials.nodeSegments()),
-                           float(mSettings.sampleAngle), float(mSettings.fineSpread));
+    const gather::Knots& knots = input.materials.commonKnots();
+    block.node = glm::vec4(knots.rangeMm, float(knots.segments), float(mSettings.sampleAngle),
+                           float(mSettings.fineSpread));
     block.rings = glm::vec4(float(viewLevels()), float(irradianceLevels()),
                             float(mSettings.pixelAngle), float(mSettings.fade));
     block.energy = glm::vec4(mSettings.energy < 1.0 ? 1.0f : 0.0f, mSettings.adaptive ? 1.0f : 0.0f,
