@@ -58,15 +58,23 @@ GatherMaterials::GatherMaterials(std::span<const MaterialPointer> materials)
 }
 
 void GatherMaterials::update() {
-    mHomogeneous = mMaterials.size() == 1 && mMaterials[0]->isHomogeneous();
     mCommon = celadon::commonKnots(mMaterials);
-    mLargestProfile = static_cast<std::size_t>(mCommon.segments + 1) * 3;
+    const auto sameKnots = [this](const MaterialPointer& material) {
+        return material->segments == mCommon.segments && material->maxRadiusMm == mCommon.rangeMm;
+    };
+    mProfiles = gather::Profiles::Any;
+    if (mMaterials.size() == 1 && mMaterials[0]->isHomogeneous()) {
+        mProfiles = gather::Profiles::One;
+    } else if (std::ranges::all_of(mMaterials, sameKnots)) {
+        mProfiles = gather::Profiles::SameKnots;
+    }
+    int mostKnots = mCommon.segments + 1;
     float largest = subedit::kLogProfileFloor;
     for (const MaterialPointer& material : mMaterials) {
         largest = std::max(largest, *std::ranges::max_element(material->logProfile));
-        mLargestProfile =
-            std::max(mLargestProfile, static_cast<std::size_t>(material->knots()) * 3);
+        mostKnots = std::max(mostKnots, material->knots());
     }
+    mLargestProfile = static_cast<std::size_t>(mostKnots * gather::kKnotCodes);
     mScale.offset = subedit::kLogProfileFloor;
     mScale.step = (largest + kRoomAbove - subedit::kLogProfileFloor) / kLargestCode;
     const float halfLog2e = 0.5f * std::numbers::log2e_v<float>;
@@ -82,18 +90,21 @@ void GatherMaterials::encodeLogs(const float* logP, std::size_t count, std::uint
     quantize(logP, count, mScale.offset, 1.0f / mScale.step, codes);
 }
 
-void GatherMaterials::encode(int material, glm::vec2 uv, float* scratch,
-                             std::uint16_t* codes) const {
+void GatherMaterials::encode(int material, glm::vec2 uv, std::uint16_t* codes) const {
+    constexpr std::size_t kMostKnots = subedit::kMaxSegments + 1;
     const subedit::MaterialMap& own = map(material);
-    own.sampleLogProfile(uv, scratch);
+    float logP[3 * kMostKnots];
+    float spread[gather::kKnotCodes * kMostKnots];
+    own.sampleLogProfile(uv, logP);
     const auto knotCount = static_cast<std::size_t>(own.knots());
-    std::uint16_t interleaved[3 * (subedit::kMaxSegments + 1)];
-    encodeLogs(scratch, 3 * knotCount, interleaved);
     for (std::size_t k = 0; k < knotCount; ++k) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            codes[c * knotCount + k] = interleaved[3 * k + c];
-        }
+        float* knot = spread + gather::kKnotCodes * k;
+        knot[0] = logP[3 * k];
+        knot[1] = logP[3 * k + 1];
+        knot[2] = logP[3 * k + 2];
+        knot[3] = subedit::kLogProfileFloor;
     }
+    encodeLogs(spread, gather::kKnotCodes * knotCount, codes);
 }
 
 void GatherMaterials::decodeRoots(int material, const std::uint16_t* codes, float* roots) const {
@@ -101,18 +112,19 @@ void GatherMaterials::decodeRoots(int material, const std::uint16_t* codes, floa
     const auto commonCount = static_cast<std::size_t>(mCommon.segments + 1);
     const auto ownCount = static_cast<std::size_t>(own.segments + 1);
     if (own.segments == mCommon.segments && own.rangeMm == mCommon.rangeMm) {
-        rootsOf(codes, 3 * ownCount, mScale.offset, mScale.step, roots);
+        rootsOf(codes, gather::kKnotCodes * ownCount, mScale.offset, mScale.step, roots);
         return;
     }
-    for (std::size_t c = 0; c < 3; ++c) {
-        for (std::size_t k = 0; k < commonCount; ++k) {
-            const float r = static_cast<float>(k) / mCommon.perMm;
-            const float position = r * own.perMm;
-            const auto i = static_cast<std::size_t>(std::min(int(position), own.segments - 1));
-            const auto a = static_cast<float>(codes[c * ownCount + i]);
-            const auto b = static_cast<float>(codes[c * ownCount + i + 1]);
-            const float code = a + (b - a) * (position - static_cast<float>(i));
-            roots[c * commonCount + k] =
+    for (std::size_t k = 0; k < commonCount; ++k) {
+        const float r = static_cast<float>(k) / mCommon.perMm;
+        const float position = r * own.perMm;
+        const int segment = std::min(static_cast<int>(position), own.segments - 1);
+        const float along = position - static_cast<float>(segment);
+        const std::uint16_t* ends = codes + gather::kKnotCodes * segment;
+        for (std::size_t c = 0; c < gather::kKnotCodes; ++c) {
+            const auto a = static_cast<float>(ends[c]);
+            const float code = a + (static_cast<float>(ends[c + gather::kKnotCodes]) - a) * along;
+            roots[gather::kKnotCodes * k + c] =
                 r <= own.rangeMm * 1.0001f
                     ? subedit::fastExp(0.5f * (mScale.offset + mScale.step * code))
                     : 0.0f;

@@ -24,20 +24,20 @@ public:
     [[nodiscard]] const subedit::MaterialMap& map(int material) const {
         return *mMaterials[static_cast<std::size_t>(material)];
     }
+    [[nodiscard]] gather::Profiles profiles() const { return mProfiles; }
     /// One material of one texel: all profiles are one, at code 0.
-    [[nodiscard]] bool isHomogeneous() const { return mHomogeneous; }
+    [[nodiscard]] bool isHomogeneous() const { return mProfiles == gather::Profiles::One; }
     [[nodiscard]] const gather::Knots& commonKnots() const { return mCommon; }
     [[nodiscard]] gather::Knots knots(int material) const;
     [[nodiscard]] const gather::CodeScale& scale() const { return mScale; }
-    /// Floats of a scratch array that holds any profile.
+    /// Codes of the longest profile.
     [[nodiscard]] std::size_t largestProfile() const { return mLargestProfile; }
 
-    /// Codes of the profile at a texture coordinate: [channel][segments + 1].
-    /// @param scratch largestProfile() floats
-    void encode(int material, glm::vec2 uv, float* scratch, std::uint16_t* codes) const;
+    /// Codes of the profile at a texture coordinate: [segments + 1][kKnotCodes].
+    void encode(int material, glm::vec2 uv, std::uint16_t* codes) const;
     /// sqrt(P) of such a profile on the common knots, zero beyond its own r_s.
     void decodeRoots(int material, const std::uint16_t* codes, float* roots) const;
-    /// Codes of a profile given as ln P.
+    /// Codes of numbers given as ln P.
     void encodeLogs(const float* logP, std::size_t count, std::uint16_t* codes) const;
 
 private:
@@ -45,7 +45,7 @@ private:
     gather::Knots mCommon;
     gather::CodeScale mScale;
     std::size_t mLargestProfile = 0;
-    bool mHomogeneous = false;
+    gather::Profiles mProfiles = gather::Profiles::Any;
 };
 
 } // namespace celadon

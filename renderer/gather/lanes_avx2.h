@@ -2,6 +2,7 @@
 
 // Eight lanes of AVX2 with FMA, see pair_kernel.inl for what is asked of them.
 
+#include "renderer/gather/eight_records.h"
 #include "renderer/gather/pair_kernel.h"
 
 #include <cstdint>
@@ -10,23 +11,47 @@
 namespace celadon::gather {
 namespace {
 
+/// For each mask of eight bits, the lanes that are set, in order.
+struct CompressionTable {
+    std::uint8_t lanes[256][8] = {};
+
+    constexpr CompressionTable() {
+        for (int mask = 0; mask < 256; ++mask) {
+            int next = 0;
+            for (int lane = 0; lane < 8; ++lane) {
+                if ((mask >> lane & 1) != 0) {
+                    lanes[mask][next++] = static_cast<std::uint8_t>(lane);
+                }
+            }
+        }
+    }
+};
+
+alignas(64) constexpr CompressionTable kCompression;
+
 struct Lanes {
     static constexpr int kCount = 8;
     using Float = __m256;
     using Int = __m256i;
     using Mask = __m256;
+    using Ends = EightEnds;
 
     static Float set(float v) { return _mm256_set1_ps(v); }
-    static Float load(const float* p) { return _mm256_load_ps(p); }
-    static void store(float* p, Float v) { _mm256_store_ps(p, v); }
+    static Float load(const float* p) { return _mm256_loadu_ps(p); }
+    static Int load(const std::int32_t* p) {
+        return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
+    }
+    static void store(float* p, Float v) { _mm256_storeu_ps(p, v); }
+    static void store(std::int32_t* p, Int v) {
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), v);
+    }
     static Float minimum(Float a, Float b) { return _mm256_min_ps(a, b); }
     static Float maximum(Float a, Float b) { return _mm256_max_ps(a, b); }
     static Mask less(Float a, Float b) { return _mm256_cmp_ps(a, b, _CMP_LT_OQ); }
     static Mask atMost(Float a, Float b) { return _mm256_cmp_ps(a, b, _CMP_LE_OQ); }
     static Mask both(Mask a, Mask b) { return _mm256_and_ps(a, b); }
     static Mask without(Mask a, Mask b) { return _mm256_andnot_ps(b, a); }
-    static bool any(Mask m) { return _mm256_movemask_ps(m) != 0; }
-    static int count(Mask m) { return __builtin_popcount(unsigned(_mm256_movemask_ps(m))); }
+    static unsigned bits(Mask m) { return static_cast<unsigned>(_mm256_movemask_ps(m)); }
     static Float select(Mask m, Float a, Float b) { return _mm256_blendv_ps(b, a, m); }
     static Float sqrt(Float x) { return _mm256_sqrt_ps(x); }
     static Float round(Float x) { ///< to the nearest
@@ -40,32 +65,36 @@ struct Lanes {
     }
     static Int toInt(Float x) { return _mm256_cvttps_epi32(x); } ///< towards zero
     static Float toFloat(Int x) { return _mm256_cvtepi32_ps(x); }
-    static Int iota() { return _mm256_set_epi32(7, 6, 5, 4, 3, 2, 1, 0); }
-    static Int add(Int a, int b) { return _mm256_add_epi32(a, _mm256_set1_epi32(b)); }
-    static Int add(Int a, Int b) { return _mm256_add_epi32(a, b); }
-    static Int times64(Int a) { return _mm256_slli_epi32(a, 6); }
-    static Int gather(const std::uint32_t* base, Int index) {
-        return _mm256_i32gather_epi32(reinterpret_cast<const int*>(base), index, 4);
-    }
-    static Int lowHalf(Int x) { return _mm256_and_si256(x, _mm256_set1_epi32(0xffff)); }
-    static Int highHalf(Int x) { return _mm256_srli_epi32(x, 16); }
 
-    /// A profile, from codes to floats.
-    struct Table {
-        alignas(32) float values[kTableSize];
+    class Compression {
+    public:
+        explicit Compression(Mask m)
+            : mOrder(_mm256_cvtepu8_epi32(
+                  _mm_loadl_epi64(reinterpret_cast<const __m128i*>(kCompression.lanes[bits(m)])))) {
+        }
+        void store(float* out, Float v) const {
+            _mm256_storeu_ps(out, _mm256_permutevar8x32_ps(v, mOrder));
+        }
+        void store(std::int32_t* out, Int v) const {
+            Lanes::store(out, _mm256_permutevar8x32_epi32(v, mOrder));
+        }
 
-        void fill(const std::uint16_t* codes, int segments) {
-            for (int k = 0; k <= segments; k += 8) {
-                const __m128i eight = _mm_loadu_si128(reinterpret_cast<const __m128i*>(codes + k));
-                _mm256_store_ps(values + k, toFloat(_mm256_cvtepu16_epi32(eight)));
-            }
-        }
-        /// Value at the start of a segment, and its change to the end.
-        void at(Int segment, Float& from, Float& difference) const {
-            from = _mm256_i32gather_ps(values, segment, 4);
-            difference = _mm256_i32gather_ps(values + 1, segment, 4) - from;
-        }
+    private:
+        Int mOrder;
     };
+    static Float gather(const float* base, const std::int32_t* index) {
+        return _mm256_i32gather_ps(base, load(index), 4);
+    }
+    static Ends ends(const std::uint16_t* codes, const std::int32_t* index) {
+        return eightEnds(codes, index);
+    }
+    static Ends meanEnds(const std::uint16_t* a, const std::int32_t* indexA, const std::uint16_t* b,
+                         const std::int32_t* indexB) {
+        return eightMeanEnds(a, indexA, b, indexB);
+    }
+    static void addColors(float (*sums)[4], const std::int32_t* pixel, const Float* color) {
+        addEightColors(sums, pixel, color);
+    }
 };
 
 } // namespace

@@ -22,20 +22,21 @@ struct Lanes {
         return v;
     }
     static void store(float* p, Float v) { __builtin_memcpy(p, &v, sizeof v); }
+    static void store(std::int32_t* p, Int v) { __builtin_memcpy(p, &v, sizeof v); }
     static Float minimum(Float a, Float b) { return a < b ? a : b; }
     static Float maximum(Float a, Float b) { return a > b ? a : b; }
     static Mask less(Float a, Float b) { return a < b; }
     static Mask atMost(Float a, Float b) { return a <= b; }
     static Mask both(Mask a, Mask b) { return a & b; }
     static Mask without(Mask a, Mask b) { return a & ~b; }
-    static int count(Mask m) {
-        int sum = 0;
+    /// One bit a lane.
+    static unsigned bits(Mask m) {
+        unsigned set = 0;
         for (int i = 0; i < kCount; ++i) {
-            sum -= m[i];
+            set |= (static_cast<unsigned>(m[i]) & 1u) << i;
         }
-        return sum;
+        return set;
     }
-    static bool any(Mask m) { return count(m) != 0; }
     static Float select(Mask m, Float a, Float b) { return m ? a : b; }
     static Float sqrt(Float x) {
         Float out;
@@ -54,38 +55,79 @@ struct Lanes {
     }
     static Int toInt(Float x) { return __builtin_convertvector(x, Int); } ///< towards zero
     static Float toFloat(Int x) { return __builtin_convertvector(x, Float); }
-    static Int iota() { return Int{0, 1, 2, 3, 4, 5, 6, 7}; }
-    static Int add(Int a, int b) { return a + b; }
-    static Int add(Int a, Int b) { return a + b; }
-    static Int times64(Int a) { return a << 6; }
-    static Int gather(const std::uint32_t* base, Int index) {
-        Int out;
+
+    /// The lanes of a mask, one after the other from `out`; up to kCount values behind them are
+    /// overwritten.
+    class Compression {
+    public:
+        explicit Compression(Mask m) : mBits(bits(m)) {}
+        template<class Value, class Vector>
+        void store(Value* out, Vector v) const {
+            for (int i = 0; i < kCount; ++i) {
+                if ((mBits >> i & 1u) != 0) {
+                    *out++ = v[i];
+                }
+            }
+        }
+
+    private:
+        unsigned mBits;
+    };
+    static Int load(const std::int32_t* p) {
+        Int v;
+        __builtin_memcpy(&v, p, sizeof v);
+        return v;
+    }
+    static Float gather(const float* base, const std::int32_t* index) {
+        Float out;
         for (int i = 0; i < kCount; ++i) {
-            out[i] = static_cast<std::int32_t>(base[index[i]]);
+            out[i] = base[index[i]];
         }
         return out;
     }
-    static Int lowHalf(Int x) { return x & 0xffff; }
-    static Int highHalf(Int x) { return (x >> 16) & 0xffff; }
 
-    /// A profile, from codes to floats.
-    struct Table {
-        float values[kTableSize];
-
-        void fill(const std::uint16_t* codes, int segments) {
-            for (int k = 0; k <= segments; ++k) {
-                values[k] = static_cast<float>(codes[k]);
-            }
-        }
-        /// Value at the start of a segment, and its change to the end.
-        void at(Int segment, Float& from, Float& difference) const {
-            for (int i = 0; i < kCount; ++i) {
-                const float* v = values + segment[i];
-                from[i] = v[0];
-                difference[i] = v[1] - v[0];
-            }
-        }
+    /// Codes of two neighboring knots, of each lane's profile.
+    struct Ends {
+        Float start[3], change[3];
     };
+    /// @param index of the first knot's first code
+    static Ends ends(const std::uint16_t* codes, const std::int32_t* index) {
+        Ends e;
+        for (int i = 0; i < kCount; ++i) {
+            const std::uint16_t* knot = codes + index[i];
+            for (int c = 0; c < 3; ++c) {
+                const float start = knot[c];
+                e.start[c][i] = start;
+                e.change[c][i] = static_cast<float>(knot[c + kKnotCodes]) - start;
+            }
+        }
+        return e;
+    }
+    /// The mean of two profiles' codes, rounded up.
+    static Ends meanEnds(const std::uint16_t* a, const std::int32_t* indexA, const std::uint16_t* b,
+                         const std::int32_t* indexB) {
+        Ends e;
+        for (int i = 0; i < kCount; ++i) {
+            const std::uint16_t* p = a + indexA[i];
+            const std::uint16_t* q = b + indexB[i];
+            for (int c = 0; c < 3; ++c) {
+                const auto start = static_cast<float>((p[c] + q[c] + 1) >> 1);
+                const auto end =
+                    static_cast<float>((p[c + kKnotCodes] + q[c + kKnotCodes] + 1) >> 1);
+                e.start[c][i] = start;
+                e.change[c][i] = end - start;
+            }
+        }
+        return e;
+    }
+    /// Adds a color to the sums of each lane's pixel; lanes may share one.
+    static void addColors(float (*sums)[4], const std::int32_t* pixel, const Float* color) {
+        for (int i = 0; i < kCount; ++i) {
+            for (int c = 0; c < 3; ++c) {
+                sums[pixel[i]][c] += color[c][i];
+            }
+        }
+    }
 };
 
 } // namespace

@@ -69,10 +69,12 @@ struct Radii {
 };
 
 /// R_P (energy 0.95) of the longest and the shortest channel, R_cut, and what it keeps.
+/// @param roots, logP  [segments + 1][kKnotCodes]
 Radii radiiOf(const float* roots, const float* logP, int segments, float h, double cutEnergy) {
     Radii radii;
     float energy[3][kMostKnots];
     float P[kMostKnots];
+    float logs[3][kMostKnots];
     float total[3];
     const auto crossing = [&](int c, float wanted) {
         float sum = 0.0f;
@@ -86,12 +88,13 @@ Radii radiiOf(const float* roots, const float* logP, int segments, float h, doub
         return h * static_cast<float>(segments);
     };
     for (int c = 0; c < 3; ++c) {
-        const int first = c * (segments + 1);
         for (int k = 0; k <= segments; ++k) {
-            const float root = std::max(roots[first + k], 3.059e-7f); // e^-15, the floor
+            const int i = k * gather::kKnotCodes + c;
+            const float root = std::max(roots[i], 3.059e-7f); // e^-15, the floor
             P[k] = root * root;
+            logs[c][k] = logP[i];
         }
-        segmentEnergies(P, logP + first, segments, h, energy[c]);
+        segmentEnergies(P, logs[c], segments, h, energy[c]);
         total[c] = 0.0f;
         for (int k = 0; k < segments; ++k) {
             total[c] += energy[c][k];
@@ -114,9 +117,8 @@ Radii radiiOf(const float* roots, const float* logP, int segments, float h, doub
         for (int k = 0; k < whole; ++k) {
             inside += energy[c][k];
         }
-        const int first = c * (segments + 1) + whole;
         inside += static_cast<float>(subedit::pieceEnergy(
-            static_cast<double>(logP[first]), static_cast<double>(logP[first + 1]),
+            static_cast<double>(logs[c][whole]), static_cast<double>(logs[c][whole + 1]),
             static_cast<double>(static_cast<float>(whole) * h), static_cast<double>(h),
             static_cast<double>(position - static_cast<float>(whole))));
         radii.kept[c] = std::clamp(inside / std::max(total[c], 1e-30f), 0.5f, 1.0f);
@@ -130,17 +132,18 @@ void SampleTree::makeProfiles(const LightTexels& texels, std::size_t level) {
     Level& here = mLevels[level];
     const std::size_t count = here.nodes.size();
     const gather::Knots common = mMaterials->commonKnots();
-    const int values = 3 * (common.segments + 1);
+    const int values = gather::kKnotCodes * (common.segments + 1);
     const bool needsRoots = level + 1 < static_cast<std::size_t>(mSettings.levels);
 
     // Every profile's place first, then all of them in parallel.
-    std::size_t end = mCodes.empty() ? 0 : mCodes.size() - gather::kCodeTail;
+    std::size_t end = mCodes.size();
     for (std::size_t i = 0; i < count; ++i) {
         here.samples[i].profile = static_cast<std::uint32_t>(end);
         end += static_cast<std::size_t>(
-            level == 0 ? 3 * mMaterials->map(mMeans[0][i].material).knots() : values);
+            level == 0 ? gather::kKnotCodes * mMaterials->map(mMeans[0][i].material).knots()
+                       : values);
     }
-    mCodes.resize(end + gather::kCodeTail);
+    mCodes.resize(end);
     mRoots[level].resize(needsRoots || level > 0 ? count * static_cast<std::size_t>(values) : 0);
 
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 128), [&](const auto& range) {
@@ -157,7 +160,7 @@ void SampleTree::makeProfiles(const LightTexels& texels, std::size_t level) {
                     std::size_t{compactBits(code >> 1)} * static_cast<std::size_t>(texels.stride) +
                     compactBits(code);
                 const glm::vec2 uv(texels.surfaces[4 * texel], texels.surfaces[4 * texel + 1]);
-                mMaterials->encode(mean.material, uv, scratch.data(), out);
+                mMaterials->encode(mean.material, uv, out);
                 if (roots != nullptr) {
                     mMaterials->decodeRoots(mean.material, out, roots);
                 }

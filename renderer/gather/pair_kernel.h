@@ -2,16 +2,15 @@
 
 #include <cstdint>
 
-/// The hot loop of the CPU backend: samples onto a tile of pixels, sixteen pixels at a time. The
-/// same meaning as shaders/raster_splat.frag, pair by pair. Compiled once for each instruction set
-/// and chosen when the program runs. Plain data only: nothing inline from a library may be
-/// instantiated in a file with other instruction sets, or the linker could pick that copy for all.
+/// The hot loop of the CPU backend: samples onto a tile of pixels. The same meaning as
+/// shaders/raster_splat.frag, pair by pair. Compiled once for each instruction set and chosen when
+/// the program runs. Plain data only: nothing inline from a library may be instantiated in a file
+/// with other instruction sets, or the linker could pick that copy for all.
 namespace celadon::gather {
 
 inline constexpr int kTileSide = 8;
 inline constexpr int kTilePixels = 64;
-inline constexpr int kCodeTail = 32;   ///< codes that may be read past the last profile's end
-inline constexpr int kTableSize = 264; ///< most knots of a profile, and what a vector reads past
+inline constexpr int kKnotCodes = 4; ///< codes of a knot: R, G, B, one unused
 
 /// Profiles as 16-bit codes: ln P = offset + step * code, so that
 /// log2 sqrt(P_i P_o) = exponentOffset + exponentStep * (code_i + code_o).
@@ -36,7 +35,7 @@ struct Sample {
     float flux[3] = {};        ///< 1e-6 W; what lies beyond R_cut given back
     float steepness = 0.0f;    ///< of -ln P over the first segment, steepest channel, 1/mm
     float ball = 0.0f;         ///< hierarchical: mm
-    std::uint32_t profile = 0; ///< first code: [channel][segments + 1]
+    std::uint32_t profile = 0; ///< first code: [segments + 1][kKnotCodes]
     Knots knots;
 };
 
@@ -47,21 +46,27 @@ struct Candidate {
     float low, high;      ///< hierarchical: R^k, and R^(k+1) or 0; paper: [low, high)
 };
 
-/// A tile of one level of the splatting buffer; pixels that are not covered have knots.rangeMm 0.
+/// A tile of one level of the splatting buffer; pixels that are not covered have rangeMm 0.
 struct Tile {
-    int pixels; ///< a multiple of 16
     alignas(64) float x[kTilePixels], y[kTilePixels], z[kTilePixels];
     alignas(64) float perMm[kTilePixels], rangeMm[kTilePixels], lastSegment[kTilePixels];
-    /// Codes of both ends of a segment, the far one in the upper half:
-    /// [channel][segment][kTilePixels]. Null where all profiles of the solve are one.
-    const std::uint32_t* segments;
-    int segmentsPerChannel;
-    alignas(64) float sums[3][kTilePixels]; ///< added to
+    /// Codes of the pixels' profiles: [kTilePixels][profileStride]. Null where Solve::one.
+    const std::uint16_t* profiles;
+    int profileStride;
+    alignas(64) float sums[kTilePixels][4]; ///< added to
+};
+
+/// How much the profiles of a solve have in common.
+enum class Profiles : std::uint8_t {
+    One,       ///< all are the one at code 0
+    SameKnots, ///< as many segments and the same r_s
+    Any
 };
 
 struct Solve {
     CodeScale scale;
     const std::uint16_t* codes; ///< of all samples
+    Profiles profiles;
     bool hierarchical;
     float fade; ///< b
 };

@@ -1,243 +1,31 @@
 // Body of the pair loop, see pair_kernel.h. Included after the Lanes of one instruction set: a
-// struct of vectors (Float, Int, Mask), their arithmetic, and Table, the lookup in a sample's
-// profile.
+// struct of vectors (Float, Int, Mask) and their arithmetic.
+//
+// Few pixels of a tile are within the reach of most samples. So nothing but distances is computed
+// pixel by pixel: pairs that count are queued, and go on in whole vectors, sorted by how many
+// distances their kernel takes.
 
 #include "renderer/gather/pair_kernel.h"
 
 #include <cstdint>
 
+#include "renderer/gather/pair_math.inl"
+#include "renderer/gather/pair_profiles.inl"
+#include "renderer/gather/pair_queue.inl"
+
 namespace celadon::gather {
 namespace {
-
-using L = Lanes;
-using Float = L::Float;
-using Int = L::Int;
-using Mask = L::Mask;
-
-constexpr float kPi = 3.14159265f;
-constexpr float kLn2 = 0.69314718f;
-
-/// 2^x, relative error 2e-7 (Taylor series of the fraction in [-1/2, 1/2]); 2^-126 below that.
-Float exp2(Float x) {
-    const Float clamped = L::maximum(x, L::set(-126.0f));
-    const Float n = L::round(clamped);
-    const Float f = clamped - n;
-    Float p = f * L::set(1.5403530e-4f) + L::set(1.3333558e-3f);
-    p = p * f + L::set(9.6181291e-3f);
-    p = p * f + L::set(5.5504109e-2f);
-    p = p * f + L::set(2.4022651e-1f);
-    p = p * f + L::set(6.9314718e-1f);
-    p = p * f + L::set(1.0f);
-    return L::scale(p, n);
-}
-
-/// 0 at `from`, 1 at `to`; from < to.
-Float smoothStep(float from, float to, Float x) {
-    const Float t = L::minimum(
-        L::maximum((x - L::set(from)) * L::set(1.0f / (to - from)), L::set(0.0f)), L::set(1.0f));
-    return t * t * (L::set(3.0f) - L::set(2.0f) * t);
-}
-
-/// Arc cosine, error below 7e-5 (Abramowitz, Stegun 1964, 4.4.45).
-Float arcCosine(Float x) {
-    const Float a = L::maximum(x, L::set(0.0f) - x);
-    Float p = L::set(-0.0187293f) * a + L::set(0.0742610f);
-    p = p * a + L::set(-0.2121144f);
-    p = p * a + L::set(1.5707288f);
-    const Float positive = p * L::sqrt(L::maximum(L::set(1.0f) - a, L::set(0.0f)));
-    return L::select(L::less(x, L::set(0.0f)), L::set(kPi) - positive, positive);
-}
-
-/// Midpoints in the angle of t = 1/2 - 1/2 cos(angle), for arcs that begin and end like a root:
-/// places in [0, 1] and weights for an integral over it.
-template<int N>
-struct ArcRule {
-    float place[N];
-    float weight[N];
-    ArcRule() {
-        for (int i = 0; i < N; ++i) {
-            const float angle = kPi * (static_cast<float>(i) + 0.5f) / N;
-            place[i] = 0.5f - 0.5f * __builtin_cosf(angle);
-            weight[i] = __builtin_sinf(angle) * (0.5f * kPi / N);
-        }
-    }
-};
-
-/// Gauss-Legendre on [0, 1] (Abramowitz, Stegun 1964, table 25.4).
-template<int N>
-struct GaussRule;
-template<>
-struct GaussRule<4> {
-    static constexpr float place[4] = {0.06943184f, 0.33000948f, 0.66999052f, 0.93056816f};
-    static constexpr float weight[4] = {0.17392742f, 0.32607258f, 0.32607258f, 0.17392742f};
-};
-template<>
-struct GaussRule<6> {
-    static constexpr float place[6] = {0.03376524f, 0.16939531f, 0.38069041f,
-                                       0.61930959f, 0.83060469f, 0.96623476f};
-    static constexpr float weight[6] = {0.08566225f, 0.18038079f, 0.23395697f,
-                                        0.23395697f, 0.18038079f, 0.08566225f};
-};
-
-/// A distance on a profile: its segment and how far along.
-struct Place {
-    Int segment;
-    Float fraction;
-};
-
-Place placeOf(Float distance, Float perMm, Float lastSegment) {
-    const Float position = distance * perMm;
-    const Int segment = L::toInt(L::minimum(position, lastSegment));
-    return {segment, position - L::toFloat(segment)};
-}
-
-/// One candidate and one row of pixels of the tile.
-class PairRow {
-public:
-    PairRow(const Tile& tile, int first, const Sample& sample, const L::Table* tables,
-            const CodeScale& scale)
-        : mSample(sample),
-          mTables(tables),
-          mScale(scale),
-          mSegments(tile.segments == nullptr ? nullptr : tile.segments + first),
-          mChannelStride(tile.segmentsPerChannel * kTilePixels),
-          mPixelPerMm(L::load(tile.perMm + first)),
-          mPixelLast(L::load(tile.lastSegment + first)),
-          mRange(L::minimum(L::load(tile.rangeMm + first), L::set(sample.knots.rangeMm))) {}
-
-    /// sqrt(P_i P_o) at distance r, zero beyond both ranges; and its logarithmic slopes, -d ln /
-    /// dr.
-    void at(Float r, Float* kernel, Float* slopes) const {
-        const Float inRange = L::select(L::atMost(r, mRange), L::set(1.0f), L::set(0.0f));
-        const Float reach = L::minimum(r, mRange);
-        const Place own = placeOf(reach, L::set(mSample.knots.perMm),
-                                  L::set(static_cast<float>(mSample.knots.segments - 1)));
-        if (mSegments == nullptr) {
-            const float perMm = -2.0f * kLn2 * mScale.exponentStep * mSample.knots.perMm;
-            for (int c = 0; c < 3; ++c) {
-                Float start;
-                Float change;
-                mTables[c].at(own.segment, start, change);
-                const Float code = start + own.fraction * change;
-                kernel[c] = inRange * value(code + code);
-                slopes[c] = L::set(perMm) * change;
-            }
-            return;
-        }
-        const Place there = placeOf(reach, mPixelPerMm, mPixelLast);
-        const Int index = L::add(L::times64(there.segment), L::iota());
-        const Float perCode = L::set(-kLn2 * mScale.exponentStep);
-        for (int c = 0; c < 3; ++c) {
-            const Int ends = L::gather(mSegments + c * mChannelStride, index);
-            const Float pixelStart = L::toFloat(L::lowHalf(ends));
-            const Float pixelChange = L::toFloat(L::highHalf(ends)) - pixelStart;
-            Float start;
-            Float change;
-            mTables[c].at(own.segment, start, change);
-            kernel[c] = inRange * value(start + own.fraction * change + pixelStart +
-                                        there.fraction * pixelChange);
-            slopes[c] =
-                perCode * (change * L::set(mSample.knots.perMm) + pixelChange * mPixelPerMm);
-        }
-    }
-
-    /// Adds weight times sqrt(P_i P_o) at a distance given by its square.
-    void add(Float r2, Float weight, Float* sums) const {
-        Float kernel[3];
-        Float slopes[3];
-        at(L::sqrt(L::maximum(r2, L::set(0.0f))), kernel, slopes);
-        for (int c = 0; c < 3; ++c) {
-            sums[c] = sums[c] + weight * kernel[c];
-        }
-    }
-
-private:
-    [[nodiscard]] Float value(Float code) const {
-        return exp2(L::set(mScale.exponentOffset) + L::set(mScale.exponentStep) * code);
-    }
-
-    const Sample& mSample;
-    const L::Table* mTables;
-    const CodeScale& mScale;
-    const std::uint32_t* mSegments;
-    int mChannelStride;
-    Float mPixelPerMm, mPixelLast, mRange;
-};
-
-/// The mean over a disc of radius sqrt(2) blur at distance `center`, as an integral over the
-/// distance r: whole circles up to R - d, then arcs of half angle acos((d^2 + r^2 - R^2) / (2 d
-/// r)). Adds to sums; returns the sum of weights. Within 0.5 % for exp(-s r), s blur < 4 with 4 + 8
-/// points, < 12 with 6 + 10.
-template<int Inner, int Outer>
-Float addDisc(const PairRow& row, Float center, Float blur, Mask where, Float* sums) {
-    static const ArcRule<Outer> arcs;
-    const Float zero = L::set(0.0f);
-    const Float radius = blur * L::set(1.41421356f);
-    const Float gap = L::maximum(radius - center, center - radius);
-    Float total = zero;
-    const Mask inside = L::both(where, L::less(center, radius));
-    if (L::any(inside)) {
-        for (int i = 0; i < Inner; ++i) {
-            const Float r = gap * L::set(GaussRule<Inner>::place[i]);
-            const Float weight =
-                L::select(inside, r * gap * L::set(kPi * GaussRule<Inner>::weight[i]), zero);
-            row.add(r * r, weight, sums);
-            total = total + weight;
-        }
-    }
-    const Float width = radius + center - gap;
-    for (int i = 0; i < Outer; ++i) {
-        const Float r = gap + width * L::set(arcs.place[i]);
-        const Float cosine = (center * center + r * r - radius * radius) /
-                             L::maximum(L::set(2.0f) * center * r, L::set(1e-20f));
-        const Float halfAngle =
-            arcCosine(L::minimum(L::maximum(cosine, L::set(-1.0f)), L::set(1.0f)));
-        const Float weight = L::select(where, r * halfAngle * width * L::set(arcs.weight[i]), zero);
-        row.add(r * r, weight, sums);
-        total = total + weight;
-    }
-    return total;
-}
-
-/// 0 inside a ball, 1 well outside.
-Float outside(float ball, float fade, Float distance) {
-    return ball > 0.0f ? smoothStep(ball, (1.0f + fade) * ball, distance) : L::set(1.0f);
-}
-
-struct Offsets {
-    Float x, y, z, squared;
-    Offsets(const Tile& tile, int first, const float* from)
-        : x(L::load(tile.x + first) - L::set(from[0])),
-          y(L::load(tile.y + first) - L::set(from[1])),
-          z(L::load(tile.z + first) - L::set(from[2])),
-          squared(x * x + y * y + z * z) {}
-};
 
 constexpr float kRingLow = 0.8f; ///< cross-fade of a ring about its radius
 constexpr float kRingHigh = 1.2f;
 
-/// Lanes that may count, from squared distances alone: most rows of most candidates have none, and
-/// nothing else is computed for them.
-Mask mayCount(const Tile& tile, int first, const Candidate& candidate, const Solve& solve,
-              Float squared, Float fromParentSquared) {
-    const Sample& sample = *candidate.sample;
-    const auto square = [](float x) { return L::set(x * x); };
-    Mask where = L::both(L::less(L::set(0.0f), L::load(tile.rangeMm + first)),
-                         L::less(squared, square(sample.knots.rangeMm)));
-    if (!solve.hierarchical) {
-        return L::both(where, L::both(L::atMost(square(candidate.low), squared),
-                                      L::less(squared, square(candidate.high))));
-    }
-    const float ring = kRingLow * candidate.low;
-    where = L::both(where, L::less(square(sample.ball > ring ? sample.ball : ring), squared));
-    if (candidate.high > 0.0f) {
-        where = L::both(where, L::less(squared, square(kRingHigh * candidate.high)));
-    }
-    if (candidate.parent != nullptr) {
-        where = L::both(where, L::less(fromParentSquared,
-                                       square((1.0f + solve.fade) * candidate.parent->ball)));
-    }
-    return where;
+/// Below these a disc is small, and one distance with its second order does.
+constexpr float kNarrowAngle = 0.1f;
+constexpr float kNarrowChange = 0.4f;
+
+/// 0 inside a ball, 1 well outside.
+Float outside(float ball, float fade, Float distance) {
+    return ball > 0.0f ? smoothStep(ball, (1.0f + fade) * ball, distance) : L::set(1.0f);
 }
 
 /// Weight of the candidate's node and of its ring (DESIGN 3.2, 3.3).
@@ -257,127 +45,450 @@ Float hierarchicalWeight(const Candidate& candidate, float fade, Float distance,
     return w;
 }
 
-/// Below these a disc is small, and one distance with its second order does.
-constexpr float kNarrowAngle = 0.1f;
-constexpr float kNarrowChange = 0.4f;
+/// Distances at which a candidate counts: from the sample in [least, most), from its parent below
+/// `parent`.
+struct Reach {
+    float least, most, parent;
 
-void replace(Float* kernel, const Float* by, Mask where) {
-    for (int c = 0; c < 3; ++c) {
-        kernel[c] = L::select(where, by[c], kernel[c]);
-    }
-}
-
-int addRow(Tile& tile, int first, const Candidate& candidate, const L::Table* tables,
-           const Solve& solve) {
-    const Sample& sample = *candidate.sample;
-    const Float zero = L::set(0.0f);
-    const Offsets d(tile, first, sample.position);
-    Float fromParentSquared = zero;
-    if (candidate.parent != nullptr) {
-        fromParentSquared = Offsets(tile, first, candidate.parent->position).squared;
-    }
-    const Mask where = mayCount(tile, first, candidate, solve, d.squared, fromParentSquared);
-    if (!L::any(where)) {
-        return 0;
-    }
-    const Float weight =
-        solve.hierarchical
-            ? hierarchicalWeight(candidate, solve.fade, L::sqrt(d.squared), fromParentSquared)
-            : L::set(1.0f);
-    const Float along =
-        d.x * d.x * L::set(sample.diagonal[0]) + d.y * d.y * L::set(sample.diagonal[1]) +
-        d.z * d.z * L::set(sample.diagonal[2]) +
-        L::set(2.0f) *
-            (d.x * d.y * L::set(sample.offDiagonal[0]) + d.x * d.z * L::set(sample.offDiagonal[1]) +
-             d.y * d.z * L::set(sample.offDiagonal[2]));
-    const Float variance = L::set(sample.variance);
-    const Float directed = L::minimum((L::set(2.0f) * along) / L::maximum(d.squared, L::set(1e-8f)),
-                                      L::set(1.3f) * variance);
-    const Float q =
-        L::maximum(L::select(L::less(L::set(1e-8f), d.squared), directed, variance), zero);
-    const Float closest2 = L::maximum(d.squared + variance - q, zero);
-    const Float closest = L::sqrt(closest2);
-    const Float blur = L::sqrt(q);
-
-    // The middle distance first. For a disc that is small beside its distance the rest is of second
-    // order, q / 4 (f'' - f' / r): for f = e^(-s r) that is q / 4 s (s + 1 / r), for f = r^-n twice
-    // the second term. Profiles lie between the two.
-    const PairRow row(tile, first, sample, tables, solve.scale);
-    const Float middle = closest2 + L::set(0.98f) * q;
-    const Float r = L::sqrt(middle);
-    Float kernel[3];
-    Float slopes[3];
-    row.at(r, kernel, slopes);
-    Float change = zero; // of the kernel's logarithm over the blur, steepest channel
-    for (int c = 0; c < 3; ++c) {
-        change = L::maximum(change, slopes[c] * blur);
-    }
-    const Mask narrow = L::both(L::less(blur, L::set(kNarrowAngle) * closest),
-                                L::less(change, L::set(kNarrowChange)));
-    const Float perR = (L::set(1.5f)) / L::maximum(r, L::set(1e-6f));
-    Float near[3];
-    for (int c = 0; c < 3; ++c) {
-        near[c] = kernel[c] * (L::set(1.0f) + L::set(0.25f) * q * slopes[c] * (slopes[c] + perR));
-    }
-    if (L::any(L::without(where, narrow))) {
-        // Near zero a profile is steeper than at r: what the disc can reach counts.
-        const Float nearest = closest - L::set(1.41421356f) * blur;
-        change = L::select(L::less(nearest, L::set(1.0f / sample.knots.perMm)),
-                           L::maximum(change, L::set(sample.steepness) * blur), change);
-        const Mask wide =
-            L::both(L::without(where, narrow),
-                    L::both(L::less(closest, L::set(4.0f) * blur), L::less(L::set(1.0f), change)));
-        const Mask gentle = L::without(L::without(where, narrow), wide);
-        if (L::any(gentle)) {
-            const Float step = L::set(1.7320508f) * blur * closest;
-            const Float third = L::set(1.0f / 3.0f);
-            Float mean[3] = {third * kernel[0], third * kernel[1], third * kernel[2]};
-            row.add(middle - step, third, mean);
-            row.add(middle + step, third, mean);
-            replace(kernel, mean, gentle);
+    Reach(const Candidate& candidate, const Solve& solve)
+        : least(candidate.low),
+          most(candidate.sample->knots.rangeMm),
+          parent(candidate.parent != nullptr ? (1.0f + solve.fade) * candidate.parent->ball
+                                             : 0.0f) {
+        float end = candidate.high;
+        if (solve.hierarchical) {
+            least *= kRingLow;
+            least = candidate.sample->ball > least ? candidate.sample->ball : least;
+            end = end > 0.0f ? end * kRingHigh : most;
         }
-        if (L::any(wide)) {
-            Float mean[3] = {zero, zero, zero};
-            const bool steep = L::any(L::both(wide, L::less(L::set(4.0f), change)));
-            const Float total = steep ? addDisc<6, 10>(row, closest, blur, wide, mean)
-                                      : addDisc<4, 8>(row, closest, blur, wide, mean);
-            const Float perTotal = (L::set(1.0f)) / L::maximum(total, L::set(1e-20f));
-            for (Float& m : mean) {
-                m = m * perTotal;
+        most = end < most ? end : most;
+    }
+};
+
+struct Offsets {
+    Float x, y, z;
+    Offsets(Float px, Float py, Float pz, const float* from)
+        : x(px - L::set(from[0])), y(py - L::set(from[1])), z(pz - L::set(from[2])) {}
+    [[nodiscard]] Float squared() const { return x * x + y * y + z * z; }
+};
+
+/// Spheres about the pixels of a row, that is of one vector; without covered pixels of radius -1e30.
+class RowBounds {
+public:
+    explicit RowBounds(const Tile& tile) {
+        for (int row = 0; row < L::kCount; ++row) {
+            mX[row] = mY[row] = mZ[row] = 0.0f;
+            mRadius[row] = -1e30f;
+        }
+        for (int row = 0; row < kTilePixels / L::kCount; ++row) {
+            boundRow(tile, row);
+        }
+    }
+
+    /// Rows that a candidate may reach, a bit each.
+    [[nodiscard]] unsigned reached(const Candidate& candidate, const Reach& reach) const {
+        const Float radius = L::load(mRadius);
+        const Float distance = distanceFrom(candidate.sample->position);
+        Mask where = L::both(L::less(distance - radius, L::set(reach.most)),
+                             L::atMost(L::set(reach.least), distance + radius));
+        if (candidate.parent != nullptr) {
+            where = L::both(where, L::less(distanceFrom(candidate.parent->position) - radius,
+                                           L::set(reach.parent)));
+        }
+        return L::bits(where);
+    }
+
+private:
+    [[nodiscard]] Float distanceFrom(const float* p) const {
+        return L::sqrt(Offsets(L::load(mX), L::load(mY), L::load(mZ), p).squared());
+    }
+
+    void boundRow(const Tile& tile, int row) {
+        const float* axes[3] = {tile.x, tile.y, tile.z};
+        float low[3] = {1e30f, 1e30f, 1e30f};
+        float high[3] = {-1e30f, -1e30f, -1e30f};
+        for (int i = row * L::kCount; i < (row + 1) * L::kCount; ++i) {
+            for (int c = 0; c < 3 && tile.rangeMm[i] > 0.0f; ++c) {
+                low[c] = axes[c][i] < low[c] ? axes[c][i] : low[c];
+                high[c] = axes[c][i] > high[c] ? axes[c][i] : high[c];
             }
-            replace(kernel, mean, wide);
+        }
+        if (low[0] > high[0]) {
+            return;
+        }
+        mX[row] = 0.5f * (low[0] + high[0]);
+        mY[row] = 0.5f * (low[1] + high[1]);
+        mZ[row] = 0.5f * (low[2] + high[2]);
+        float squared = 0.0f;
+        for (int c = 0; c < 3; ++c) {
+            squared += (high[c] - low[c]) * (high[c] - low[c]);
+        }
+        // Rounding must not lose a pixel.
+        mRadius[row] = 0.5f * __builtin_sqrtf(squared) * 1.0001f +
+                       1e-5f * (__builtin_fabsf(mX[row]) + __builtin_fabsf(mY[row]) +
+                                __builtin_fabsf(mZ[row]));
+    }
+
+    alignas(64) float mX[L::kCount], mY[L::kCount], mZ[L::kCount], mRadius[L::kCount];
+};
+
+template<Profiles kProfiles>
+class PairPipeline {
+public:
+    PairPipeline(Tile& tile, const Solve& solve)
+        : mTile(tile), mSolve(solve), mProfiles(tile, solve), mRows(tile) {
+        // Whole vectors are read: behind the pixels collected stands one of the tile at any time.
+        for (std::int32_t& pixel : mPairs.pixel) {
+            pixel = 0;
         }
     }
-    replace(kernel, near, narrow);
-    for (int c = 0; c < 3; ++c) {
-        float* sums = tile.sums[c] + first;
-        L::store(sums, L::load(sums) +
-                           L::select(where, kernel[c] * weight * L::set(sample.flux[c]), zero));
+
+    void add(const Candidate& candidate) {
+        const Reach reach(candidate, mSolve);
+        const int count = collect(candidate, reach);
+        if (count > 0) {
+            queue(candidate, count);
+        }
     }
-    return L::count(where);
+
+    /// What still waits. @return pairs that counted
+    std::uint64_t finish() {
+        drainPairs(true);
+        drainGentle(true);
+        drainWide<4, 8>(mWide, true);
+        drainWide<6, 10>(mSteep, true);
+        return mCounted;
+    }
+
+private:
+    /// Knots differ from pair to pair only where they may.
+    static constexpr int kKnotColumns = kProfiles == Profiles::Any ? 3 : 0;
+    enum PairColumn { kClosestSquared, kBlurSquared, kSteepness, kWeight, kPairColumns = kWeight + 3 };
+    enum GentleColumn { kMiddle, kStep, kThird, kSum = kThird + 3, kGentleColumns = kSum + 3 };
+    enum WideColumn { kCenter, kBlur, kWideWeight, kWideColumns = kWideWeight + 3 };
+    using Pairs = PairQueue<kPairColumns + kKnotColumns>;
+    using Gentle = PairQueue<kGentleColumns + kKnotColumns>;
+    using Wide = PairQueue<kWideColumns + kKnotColumns>;
+
+    /// Pixels that count, from squared distances alone.
+    int collect(const Candidate& candidate, const Reach& reach) {
+        const auto square = [](float x) { return L::set(x * x); };
+        const bool inclusive = !mSolve.hierarchical;
+        int count = 0;
+        for (unsigned rows = mRows.reached(candidate, reach); rows != 0; rows &= rows - 1) {
+            const int first = __builtin_ctz(rows) * L::kCount;
+            const Float x = L::load(mTile.x + first);
+            const Float y = L::load(mTile.y + first);
+            const Float z = L::load(mTile.z + first);
+            const Offsets d(x, y, z, candidate.sample->position);
+            const Float squared = d.squared();
+            Mask where = L::both(L::less(L::set(0.0f), L::load(mTile.rangeMm + first)),
+                                 L::less(squared, square(reach.most)));
+            where = L::both(where, inclusive ? L::atMost(square(reach.least), squared)
+                                             : L::less(square(reach.least), squared));
+            Float fromParentSquared = squared;
+            if (candidate.parent != nullptr) {
+                fromParentSquared = Offsets(x, y, z, candidate.parent->position).squared();
+                where = L::both(where, L::less(fromParentSquared, square(reach.parent)));
+            }
+            const unsigned bits = L::bits(where);
+            if (bits == 0) {
+                continue;
+            }
+            const typename L::Compression compression(where);
+            compression.store(mX + count, d.x);
+            compression.store(mY + count, d.y);
+            compression.store(mZ + count, d.z);
+            compression.store(mFromParent + count, fromParentSquared);
+            compression.store(mPairs.pixel + mPairs.size + count, L::load(kLanes.index + first));
+            count += __builtin_popcount(bits);
+        }
+        return count;
+    }
+
+    /// Weights and blurs of the pixels collected.
+    void queue(const Candidate& candidate, int count) {
+        const Sample& sample = *candidate.sample;
+        const Float variance = L::set(sample.variance);
+        for (int i = 0; i < count; i += L::kCount) {
+            const Float x = L::load(mX + i);
+            const Float y = L::load(mY + i);
+            const Float z = L::load(mZ + i);
+            const Float squared = x * x + y * y + z * z;
+            const Float along = x * x * L::set(sample.diagonal[0]) +
+                                y * y * L::set(sample.diagonal[1]) +
+                                z * z * L::set(sample.diagonal[2]) +
+                                L::set(2.0f) * (x * y * L::set(sample.offDiagonal[0]) +
+                                                x * z * L::set(sample.offDiagonal[1]) +
+                                                y * z * L::set(sample.offDiagonal[2]));
+            const Float directed =
+                L::minimum((L::set(2.0f) * along) / L::maximum(squared, L::set(1e-8f)),
+                           L::set(1.3f) * variance);
+            const Float q =
+                L::maximum(L::select(L::less(L::set(1e-8f), squared), directed, variance),
+                           L::set(0.0f));
+            const int at = mPairs.size + i;
+            const auto put = [&](int column, Float v) { L::store(mPairs.columns[column] + at, v); };
+            put(kClosestSquared, L::maximum(squared + variance - q, L::set(0.0f)));
+            put(kBlurSquared, q);
+            put(kSteepness, L::set(sample.steepness));
+            const Float weight = mSolve.hierarchical
+                                     ? hierarchicalWeight(candidate, mSolve.fade, L::sqrt(squared),
+                                                          L::load(mFromParent + i))
+                                     : L::set(1.0f);
+            for (int c = 0; c < 3; ++c) {
+                put(kWeight + c, weight * L::set(sample.flux[c]));
+            }
+            const Knots& knots = sample.knots;
+            if constexpr (kProfiles == Profiles::Any) {
+                put(kPairColumns, L::set(knots.perMm));
+                put(kPairColumns + 1, L::set(static_cast<float>(knots.segments - 1)));
+                put(kPairColumns + 2, L::minimum(L::set(knots.rangeMm),
+                                                 L::gather(mTile.rangeMm, mPairs.pixel + at)));
+            }
+            for (int j = 0; j < L::kCount; ++j) {
+                mPairs.profile[at + j] = static_cast<std::int32_t>(sample.profile);
+            }
+        }
+        if constexpr (kProfiles != Profiles::Any) {
+            mShared = {L::set(sample.knots.perMm),
+                       L::set(static_cast<float>(sample.knots.segments - 1)),
+                       L::set(sample.knots.rangeMm)};
+        }
+        mPairs.size += count;
+        mCounted += static_cast<std::uint64_t>(count);
+        if (mPairs.size >= Pairs::kFull) {
+            drainPairs(false);
+        }
+    }
+
+    template<class Queue>
+    [[nodiscard]] PairKnots knotsOf(const Queue& queue, int firstColumn, int i) const {
+        if constexpr (kProfiles == Profiles::Any) {
+            return {queue.at(firstColumn, i), queue.at(firstColumn + 1, i),
+                    queue.at(firstColumn + 2, i)};
+        } else {
+            return mShared;
+        }
+    }
+
+    /// Adds weight times sqrt(P_i P_o) at a distance given by its square.
+    void addAt(Float r2, const PairIndices& pairs, const PairKnots& knots, Float weight,
+               Float* sums) const {
+        Float kernel[3];
+        mProfiles.at(pairs, knots, L::sqrt(L::maximum(r2, L::set(0.0f))), kernel, nullptr);
+        for (int c = 0; c < 3; ++c) {
+            sums[c] = sums[c] + weight * kernel[c];
+        }
+    }
+
+    void drainPairs(bool all) {
+        mPairs.drain(all, [&](int i) { computePairs(i); });
+    }
+
+    /// The middle distance first. For a disc that is small beside its distance the rest is of second
+    /// order, q / 4 (f'' - f' / r): for f = e^(-s r) that is q / 4 s (s + 1 / r), for f = r^-n twice
+    /// the second term. Profiles lie between the two.
+    void computePairs(int i) {
+        const PairIndices pairs = mPairs.indices(i);
+        const PairKnots knots = knotsOf(mPairs, kPairColumns, i);
+        const Float closestSquared = mPairs.at(kClosestSquared, i);
+        const Float q = mPairs.at(kBlurSquared, i);
+        const Float closest = L::sqrt(closestSquared);
+        const Float blur = L::sqrt(q);
+        const Float middle = closestSquared + L::set(0.98f) * q;
+        const Float r = L::sqrt(middle);
+        Float kernel[3];
+        Float slopes[3];
+        mProfiles.at(pairs, knots, r, kernel, slopes);
+        Float change = L::set(0.0f); // of the kernel's logarithm over the blur, steepest channel
+        for (int c = 0; c < 3; ++c) {
+            change = L::maximum(change, slopes[c] * blur);
+        }
+        const Mask narrow = L::both(L::less(blur, L::set(kNarrowAngle) * closest),
+                                    L::less(change, L::set(kNarrowChange)));
+        if (any(narrow)) {
+            const Float perR = L::set(1.5f) / L::maximum(r, L::set(1e-6f));
+            Float color[3];
+            for (int c = 0; c < 3; ++c) {
+                const Float secondOrder = L::set(0.25f) * q * slopes[c] * (slopes[c] + perR);
+                color[c] = L::select(narrow,
+                                     mPairs.at(kWeight + c, i) * kernel[c] *
+                                         (L::set(1.0f) + secondOrder),
+                                     L::set(0.0f));
+            }
+            L::addColors(mTile.sums, pairs.pixel, color);
+        }
+        const Mask rest = L::without(L::less(L::set(-1.0f), r), narrow);
+        if (!any(rest)) {
+            return;
+        }
+        // Near zero a profile is steeper than at r: what the disc can reach counts.
+        const Float nearest = (closest - L::set(1.41421356f) * blur) * knots.perMm;
+        change = L::select(L::less(nearest, L::set(1.0f)),
+                           L::maximum(change, mPairs.at(kSteepness, i) * blur), change);
+        const Mask wide = L::both(rest, L::both(L::less(closest, L::set(4.0f) * blur),
+                                                L::less(L::set(1.0f), change)));
+        const Mask gentle = L::without(rest, wide);
+        if (any(gentle)) {
+            appendGentle(gentle, pairs, knots, i, middle, L::set(1.7320508f) * blur * closest, kernel);
+        }
+        if (any(wide)) {
+            const Mask steep = L::both(wide, L::less(L::set(4.0f), change));
+            appendWide<4, 8>(mWide, L::without(wide, steep), pairs, knots, i, closest, blur);
+            appendWide<6, 10>(mSteep, steep, pairs, knots, i, closest, blur);
+        }
+    }
+
+    void appendGentle(Mask where, const PairIndices& pairs, const PairKnots& knots, int i,
+                      Float middle, Float step, const Float* kernel) {
+        Float values[kGentleColumns + kKnotColumns];
+        values[kMiddle] = middle;
+        values[kStep] = step;
+        for (int c = 0; c < 3; ++c) {
+            values[kThird + c] = L::set(1.0f / 3.0f) * mPairs.at(kWeight + c, i);
+            values[kSum + c] = values[kThird + c] * kernel[c];
+        }
+        putKnots(values + kGentleColumns, knots);
+        mGentle.append(where, values, pairs);
+        if (mGentle.size >= Gentle::kFull) {
+            drainGentle(false);
+        }
+    }
+
+    void drainGentle(bool all) {
+        mGentle.drain(all, [&](int i) {
+            const PairIndices pairs = mGentle.indices(i);
+            const PairKnots knots = knotsOf(mGentle, kGentleColumns, i);
+            const Float middle = mGentle.at(kMiddle, i);
+            const Float step = mGentle.at(kStep, i);
+            Float mean[3] = {L::set(0.0f), L::set(0.0f), L::set(0.0f)};
+            addAt(middle - step, pairs, knots, L::set(1.0f), mean);
+            addAt(middle + step, pairs, knots, L::set(1.0f), mean);
+            Float color[3];
+            for (int c = 0; c < 3; ++c) {
+                color[c] = mGentle.at(kSum + c, i) + mGentle.at(kThird + c, i) * mean[c];
+            }
+            L::addColors(mTile.sums, pairs.pixel, color);
+        });
+    }
+
+    template<int Inner, int Outer>
+    void appendWide(Wide& queue, Mask where, const PairIndices& pairs, const PairKnots& knots,
+                    int i, Float closest, Float blur) {
+        if (!any(where)) {
+            return;
+        }
+        Float values[kWideColumns + kKnotColumns];
+        values[kCenter] = closest;
+        values[kBlur] = blur;
+        for (int c = 0; c < 3; ++c) {
+            values[kWideWeight + c] = mPairs.at(kWeight + c, i);
+        }
+        putKnots(values + kWideColumns, knots);
+        queue.append(where, values, pairs);
+        if (queue.size >= Wide::kFull) {
+            drainWide<Inner, Outer>(queue, false);
+        }
+    }
+
+    /// The mean over a disc of radius sqrt(2) blur at distance `center`, as an integral over the
+    /// distance r: whole circles up to R - d, then arcs of half angle acos((d^2 + r^2 - R^2) / (2 d
+    /// r)). Within 0.5 % for exp(-s r), s blur < 4 with 4 + 8 points, < 12 with 6 + 10.
+    template<int Inner, int Outer>
+    void drainWide(Wide& queue, bool all) {
+        static const ArcRule<Outer> arcs;
+        queue.drain(all, [&](int i) {
+            const PairIndices pairs = queue.indices(i);
+            const PairKnots knots = knotsOf(queue, kWideColumns, i);
+            const Float center = queue.at(kCenter, i);
+            const Float radius = queue.at(kBlur, i) * L::set(1.41421356f);
+            const Float gap = L::maximum(radius - center, center - radius);
+            const Float zero = L::set(0.0f);
+            Float mean[3] = {zero, zero, zero};
+            Float total = zero;
+            const Mask inside = L::less(center, radius);
+            for (int j = 0; j < Inner && any(inside); ++j) {
+                const Float r = gap * L::set(GaussRule<Inner>::place[j]);
+                const Float weight =
+                    L::select(inside, r * gap * L::set(kPi * GaussRule<Inner>::weight[j]), zero);
+                addAt(r * r, pairs, knots, weight, mean);
+                total = total + weight;
+            }
+            const Float width = radius + center - gap;
+            for (int j = 0; j < Outer; ++j) {
+                const Float r = gap + width * L::set(arcs.place[j]);
+                const Float cosine = (center * center + r * r - radius * radius) /
+                                     L::maximum(L::set(2.0f) * center * r, L::set(1e-20f));
+                const Float halfAngle =
+                    arcCosine(L::minimum(L::maximum(cosine, L::set(-1.0f)), L::set(1.0f)));
+                const Float weight = r * halfAngle * width * L::set(arcs.weight[j]);
+                addAt(r * r, pairs, knots, weight, mean);
+                total = total + weight;
+            }
+            const Float perTotal = L::set(1.0f) / L::maximum(total, L::set(1e-20f));
+            Float color[3];
+            for (int c = 0; c < 3; ++c) {
+                color[c] = queue.at(kWideWeight + c, i) * mean[c] * perTotal;
+            }
+            L::addColors(mTile.sums, pairs.pixel, color);
+        });
+    }
+
+    static void putKnots(Float* values, const PairKnots& knots) {
+        if constexpr (kProfiles == Profiles::Any) {
+            values[0] = knots.perMm;
+            values[1] = knots.lastSegment;
+            values[2] = knots.rangeMm;
+        }
+    }
+
+    struct LaneIndices {
+        alignas(64) std::int32_t index[kTilePixels] = {};
+        constexpr LaneIndices() {
+            for (int i = 0; i < kTilePixels; ++i) {
+                index[i] = i;
+            }
+        }
+    };
+    static constexpr LaneIndices kLanes{};
+
+    Tile& mTile;
+    const Solve& mSolve;
+    PairProfiles<kProfiles> mProfiles;
+    RowBounds mRows;
+    PairKnots mShared{};
+    std::uint64_t mCounted = 0;
+    /// Of one candidate: offsets from the sample, squared distances from its parent.
+    alignas(64) float mX[kTilePixels + L::kCount], mY[kTilePixels + L::kCount],
+        mZ[kTilePixels + L::kCount], mFromParent[kTilePixels + L::kCount];
+    Pairs mPairs;
+    Gentle mGentle;
+    Wide mWide, mSteep;
+};
+
+template<Profiles kProfiles>
+std::uint64_t addAll(Tile& tile, const Candidate* candidates, int count, const Solve& solve) {
+    PairPipeline<kProfiles> pipeline(tile, solve);
+    for (int i = 0; i < count; ++i) {
+        pipeline.add(candidates[i]);
+    }
+    return pipeline.finish();
 }
 
 } // namespace
 
 std::uint64_t CELADON_PAIR_FUNCTION(Tile& tile, const Candidate* candidates, int count,
                                     const Solve& solve) {
-    std::uint64_t pairs = 0;
-    L::Table tables[3];
-    const std::uint16_t* loaded = nullptr;
-    for (int i = 0; i < count; ++i) {
-        const Sample& sample = *candidates[i].sample;
-        const std::uint16_t* codes = solve.codes + sample.profile;
-        if (codes != loaded) {
-            for (int c = 0; c < 3; ++c) {
-                tables[c].fill(codes + c * (sample.knots.segments + 1), sample.knots.segments);
-            }
-            loaded = codes;
-        }
-        for (int first = 0; first < tile.pixels; first += L::kCount) {
-            pairs += static_cast<std::uint64_t>(addRow(tile, first, candidates[i], tables, solve));
-        }
+    switch (solve.profiles) {
+    case Profiles::One:
+        return addAll<Profiles::One>(tile, candidates, count, solve);
+    case Profiles::SameKnots:
+        return addAll<Profiles::SameKnots>(tile, candidates, count, solve);
+    case Profiles::Any:
+        break;
     }
-    return pairs;
+    return addAll<Profiles::Any>(tile, candidates, count, solve);
 }
 
 } // namespace celadon::gather

@@ -40,9 +40,8 @@ void SampleTree::build(const LightTexels& texels, const GatherMaterials& materia
     }
     mCodes.clear();
     if (materials.isHomogeneous()) {
-        std::vector<float> scratch(materials.largestProfile());
-        mCodes.resize(materials.largestProfile() + gather::kCodeTail);
-        materials.encode(0, {0.5f, 0.5f}, scratch.data(), mCodes.data());
+        mCodes.resize(materials.largestProfile());
+        materials.encode(0, {0.5f, 0.5f}, mCodes.data());
     }
     const std::size_t used =
         std::min<std::size_t>(levels, static_cast<std::size_t>(settings.levels));
@@ -249,8 +248,9 @@ void SampleTree::finishSample(std::size_t level, std::size_t i) {
     const std::uint16_t* codes = mCodes.data() + sample.profile;
     float steepest = 0.0f;
     for (int channel = 0; channel < 3; ++channel) {
-        const std::uint16_t* own = codes + channel * (sample.knots.segments + 1);
-        steepest = std::max(steepest, static_cast<float>(own[0]) - static_cast<float>(own[1]));
+        const std::uint16_t* own = codes + channel;
+        steepest = std::max(steepest, static_cast<float>(own[0]) -
+                                          static_cast<float>(own[gather::kKnotCodes]));
     }
     sample.steepness = steepest * mMaterials->scale().step * sample.knots.perMm;
 }

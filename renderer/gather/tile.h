@@ -23,9 +23,7 @@ public:
 
 private:
     const GatherMaterials& mMaterials;
-    std::vector<std::uint32_t> mSegments;
-    std::vector<std::uint16_t> mCodes;
-    std::vector<float> mScratch;
+    std::vector<std::uint16_t> mCodes; ///< what tile.profiles points to
     int mCovered = 0;
 };
 

@@ -170,8 +170,8 @@ std::uint64_t gatherLevel(const SampleTree& tree, const GatherMaterials& materia
                           const GatherSettings& settings) {
     const glm::ivec2 tiles = (view.size + gather::kTileSide - 1) / gather::kTileSide;
     const gather::PairFunction addPairs = gather::choosePairFunction();
-    const gather::Solve solve{materials.scale(), tree.codes().data(), settings.hierarchical,
-                              settings.fade};
+    const gather::Solve solve{materials.scale(), tree.codes().data(), materials.profiles(),
+                              settings.hierarchical, settings.fade};
     tbb::enumerable_thread_specific<Worker> workers(
         [&] { return Worker(tree, materials, settings, levelCount); });
     tbb::parallel_for(tbb::blocked_range<int>(0, tiles.x * tiles.y, 4), [&](const auto& range) {

@@ -31,20 +31,20 @@ std::vector<Kernel> kernels() {
 }
 
 /// Exponential profiles of a few lengths, coded.
-struct Profiles {
+struct CodedProfiles {
     Knots knots;
     CodeScale scale;
     std::vector<std::uint16_t> codes;
 
-    explicit Profiles(int segments) {
+    explicit CodedProfiles(int segments) {
         knots = {static_cast<float>(segments) / 20.0f, segments, 20.0f};
         scale.offset = -30.0f;
         scale.step = 34.0f / 65535.0f;
         scale.exponentOffset = 1.44269504f * scale.offset;
         scale.exponentStep = 0.72134752f * scale.step;
         for (int p = 0; p < 4; ++p) {
-            for (int c = 0; c < 3; ++c) {
-                for (int k = 0; k <= segments; ++k) {
+            for (int k = 0; k <= segments; ++k) {
+                for (int c = 0; c < kKnotCodes; ++c) {
                     const double r = k / static_cast<double>(knots.perMm);
                     const double logP = 1.0 - 0.2 * p - r / (2.0 + p + c);
                     codes.push_back(static_cast<std::uint16_t>(
@@ -52,34 +52,32 @@ struct Profiles {
                 }
             }
         }
-        codes.resize(codes.size() + kCodeTail);
     }
+    [[nodiscard]] int stride() const { return kKnotCodes * (knots.segments + 1); }
     [[nodiscard]] std::uint32_t start(int p) const {
-        return static_cast<std::uint32_t>(p * 3 * (knots.segments + 1));
+        return static_cast<std::uint32_t>(p * stride());
     }
     [[nodiscard]] double logP(int p, int c, double r) const {
         const double position = r * static_cast<double>(knots.perMm);
         const int k = std::min(static_cast<int>(position), knots.segments - 1);
-        const std::size_t i = start(p) + static_cast<std::size_t>(c * (knots.segments + 1) + k);
-        const double code = codes[i] + (position - k) * (codes[i + 1] - codes[i]);
+        const std::size_t i = start(p) + static_cast<std::size_t>(k * kKnotCodes + c);
+        const double code = codes[i] + (position - k) * (codes[i + kKnotCodes] - codes[i]);
         return -30.0 + static_cast<double>(scale.step) * code;
     }
 };
 
 struct TileCase {
     Tile tile{};
-    std::vector<std::uint32_t> segments;
+    std::vector<std::uint16_t> pixelCodes;
     std::vector<Sample> samples;
     std::vector<Candidate> candidates;
 };
 
-TileCase makeSetup(const Profiles& profiles, bool shared, float spread, unsigned seed) {
+TileCase makeSetup(const CodedProfiles& profiles, bool shared, float spread, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(0.0f, 1.0f);
     TileCase setup;
     const int n = profiles.knots.segments;
-    setup.tile.pixels = kTilePixels;
-    setup.tile.segmentsPerChannel = n;
     for (int i = 0; i < kTilePixels; ++i) {
         setup.tile.x[i] = 2.0f * unit(random);
         setup.tile.y[i] = 2.0f * unit(random);
@@ -88,21 +86,12 @@ TileCase makeSetup(const Profiles& profiles, bool shared, float spread, unsigned
         setup.tile.rangeMm[i] = i % 7 == 3 ? 0.0f : profiles.knots.rangeMm; // some not covered
         setup.tile.lastSegment[i] = static_cast<float>(n - 1);
     }
-    if (!shared) {
-        setup.segments.resize(static_cast<std::size_t>(3 * n * kTilePixels));
-        for (int c = 0; c < 3; ++c) {
-            for (int k = 0; k < n; ++k) {
-                for (int i = 0; i < kTilePixels; ++i) {
-                    const std::size_t at =
-                        profiles.start(i % 4) + static_cast<std::size_t>(c * (n + 1) + k);
-                    setup.segments[static_cast<std::size_t>((c * n + k) * kTilePixels + i)] =
-                        std::uint32_t{profiles.codes[at]} |
-                        (std::uint32_t{profiles.codes[at + 1]} << 16);
-                }
-            }
-        }
-        setup.tile.segments = setup.segments.data();
+    setup.tile.profileStride = profiles.stride();
+    for (int i = 0; i < kTilePixels && !shared; ++i) {
+        const auto* first = profiles.codes.data() + profiles.start(i % 4);
+        setup.pixelCodes.insert(setup.pixelCodes.end(), first, first + profiles.stride());
     }
+    setup.tile.profiles = shared ? nullptr : setup.pixelCodes.data();
     for (int i = 0; i < 40; ++i) {
         Sample sample;
         for (float& p : sample.position) {
@@ -137,13 +126,14 @@ void useRings(TileCase& setup, bool hierarchical) {
 class PairKernel : public testing::TestWithParam<int> {};
 
 TEST_P(PairKernel, InstructionSetsAgree) {
-    const Profiles profiles(GetParam());
-    for (const bool shared : {false, true}) {
+    const CodedProfiles profiles(GetParam());
+    for (const Profiles kind : {Profiles::One, Profiles::SameKnots, Profiles::Any}) {
+        const bool shared = kind == Profiles::One;
         for (const bool hierarchical : {false, true}) {
             for (const float spread : {0.0f, 0.5f, 30.0f}) { // narrow, three distances, wide
                 TileCase setup = makeSetup(profiles, shared, spread, 7);
                 useRings(setup, hierarchical);
-                const Solve solve{profiles.scale, profiles.codes.data(), hierarchical, 0.6f};
+                const Solve solve{profiles.scale, profiles.codes.data(), kind, hierarchical, 0.6f};
                 Tile expected = setup.tile;
                 const std::uint64_t pairs =
                     addPairsPortable(expected, setup.candidates.data(),
@@ -160,8 +150,8 @@ TEST_P(PairKernel, InstructionSetsAgree) {
                     EXPECT_NEAR(static_cast<double>(got), static_cast<double>(pairs), 2.0);
                     for (int c = 0; c < 3; ++c) {
                         for (int i = 0; i < kTilePixels; ++i) {
-                            EXPECT_NEAR(tile.sums[c][i], expected.sums[c][i],
-                                        1e-4f * expected.sums[c][i])
+                            EXPECT_NEAR(tile.sums[i][c], expected.sums[i][c],
+                                        1e-4f * expected.sums[i][c])
                                 << kernel.name << " pixel " << i;
                         }
                     }
@@ -173,39 +163,45 @@ TEST_P(PairKernel, InstructionSetsAgree) {
 
 // Points without spread and without rings: eq. 12 of the paper, pair by pair, in double precision.
 TEST_P(PairKernel, IsTheSumOverPoints) {
-    const Profiles profiles(GetParam());
+    const CodedProfiles profiles(GetParam());
     TileCase setup = makeSetup(profiles, false, 0.0f, 3);
     useRings(setup, false);
-    const Solve solve{profiles.scale, profiles.codes.data(), false, 0.6f};
-    for (const Kernel& kernel : kernels()) {
-        if (!kernel.runs) {
-            continue;
-        }
-        Tile tile = setup.tile;
-        kernel.function(tile, setup.candidates.data(), static_cast<int>(setup.candidates.size()),
-                        solve);
-        for (int i = 0; i < kTilePixels; ++i) {
-            for (int c = 0; c < 3; ++c) {
-                double sum = 0.0;
-                for (std::size_t j = 0; j < setup.candidates.size(); ++j) {
-                    const Sample& sample = *setup.candidates[j].sample;
-                    const double r =
-                        std::hypot(static_cast<double>(tile.x[i] - sample.position[0]),
-                                   static_cast<double>(tile.y[i] - sample.position[1]),
-                                   static_cast<double>(tile.z[i] - sample.position[2]));
-                    if (tile.rangeMm[i] > 0.0f &&
-                        r >= static_cast<double>(setup.candidates[j].low) &&
-                        r < static_cast<double>(setup.candidates[j].high)) {
-                        sum += static_cast<double>(sample.flux[c]) *
-                               std::exp(0.5 * (profiles.logP(static_cast<int>(j % 4), c, r) +
-                                               profiles.logP(i % 4, c, r)));
+    const Solve same{profiles.scale, profiles.codes.data(), Profiles::SameKnots, false, 0.6f};
+    const Solve any{profiles.scale, profiles.codes.data(), Profiles::Any, false, 0.6f};
+    for (const Solve& solve : {same, any})
+        for (const Kernel& kernel : kernels()) {
+            if (!kernel.runs) {
+                continue;
+            }
+            // Two 16-bit codes are added up rounded to half a step.
+            const double rounding = solve.profiles == Profiles::Any
+                                        ? 2e-5
+                                        : 0.5 * static_cast<double>(profiles.scale.step);
+            Tile tile = setup.tile;
+            kernel.function(tile, setup.candidates.data(),
+                            static_cast<int>(setup.candidates.size()), solve);
+            for (int i = 0; i < kTilePixels; ++i) {
+                for (int c = 0; c < 3; ++c) {
+                    double sum = 0.0;
+                    for (std::size_t j = 0; j < setup.candidates.size(); ++j) {
+                        const Sample& sample = *setup.candidates[j].sample;
+                        const double r =
+                            std::hypot(static_cast<double>(tile.x[i] - sample.position[0]),
+                                       static_cast<double>(tile.y[i] - sample.position[1]),
+                                       static_cast<double>(tile.z[i] - sample.position[2]));
+                        if (tile.rangeMm[i] > 0.0f &&
+                            r >= static_cast<double>(setup.candidates[j].low) &&
+                            r < static_cast<double>(setup.candidates[j].high)) {
+                            sum += static_cast<double>(sample.flux[c]) *
+                                   std::exp(0.5 * (profiles.logP(static_cast<int>(j % 4), c, r) +
+                                                   profiles.logP(i % 4, c, r)));
+                        }
                     }
+                    EXPECT_NEAR(static_cast<double>(tile.sums[i][c]), sum, rounding * sum + 1e-9)
+                        << kernel.name;
                 }
-                EXPECT_NEAR(static_cast<double>(tile.sums[c][i]), sum, 2e-5 * sum + 1e-9)
-                    << kernel.name;
             }
         }
-    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Segments, PairKernel, testing::Values(1, 24, 32, 100, 256));
