@@ -147,7 +147,7 @@ public:
         const Reach reach(candidate, mSolve);
         const int count = collect(candidate, reach);
         if (count > 0) {
-            queue(candidate, count);
+            queue(candidate, reach.least, count);
         }
     }
 
@@ -207,8 +207,12 @@ private:
     }
 
     /// Weights and blurs of the pixels collected.
-    void queue(const Candidate& candidate, int count) {
+    void queue(const Candidate& candidate, float leastMm, int count) {
         const Sample& sample = *candidate.sample;
+        // Profiles of a painted map are more than a cache holds; most pairs are near the least distance.
+        const auto nearest = static_cast<int>(leastMm * sample.knots.perMm) * kKnotCodes;
+        __builtin_prefetch(mSolve.codes + sample.profile + nearest);
+        __builtin_prefetch(mSolve.codes + sample.profile + nearest + 8 * kKnotCodes);
         const Float variance = L::set(sample.variance);
         for (int i = 0; i < count; i += L::kCount) {
             const Float x = L::load(mX + i);
