@@ -84,7 +84,9 @@ struct FrameRenderer::Passes {
                    : 1),
           directLight(shaders, view, theSettings.shadowSize),
           shading(shaders, materials.count(), view),
-          antialiasing(shaders, view) {
+          antialiasing(settings.coverageSamples > 1
+                           ? std::make_unique<Antialiasing>(shaders, view, settings.coverageSamples)
+                           : nullptr) {
         switch (settings.solver) {
         case SolverKind::Splatting:
             settings.splatting.backend = resolveBackend(settings.splatting.backend, glContext);
@@ -117,7 +119,7 @@ struct FrameRenderer::Passes {
     std::unique_ptr<ExitanceSolver> solver;
     DirectLight directLight;
     ShadingPass shading;
-    Antialiasing antialiasing;
+    std::unique_ptr<Antialiasing> antialiasing; ///< null: pixel centers as they are
     CameraView cameraView;
     const gl::Texture* exitance = nullptr;
     const gl::Texture* color = nullptr;
@@ -146,13 +148,11 @@ bool FrameRenderer::Passes::draw(const Camera& camera, std::span<const Light> li
         shadedKey = std::move(key);
     }
     shading.shade(view, *exitance, directLight.radiance());
-    if (settings.coverageSamples == 1) {
-        color = &shading.radiance(); // pixel centers as they are
-        return true;
+    color = &shading.radiance();
+    if (antialiasing != nullptr) {
+        antialiasing->resolve(gpuWorld, camera, world.sceneSphere, view, shading.radiance());
+        color = &antialiasing->color();
     }
-    antialiasing.resolve(gpuWorld, camera, world.sceneSphere, view, shading.radiance(),
-                         settings.coverageSamples);
-    color = &antialiasing.color();
     return true;
 }
 

@@ -16,14 +16,13 @@ layout(binding = 0) uniform sampler2D positions;
 layout(binding = 1) uniform sampler2D normals;
 layout(binding = 2) uniform sampler2D surfaces;
 layout(binding = 3) uniform sampler2D coarse; // B of every level
+layout(binding = 4) uniform sampler2D farEnergy; // logarithms at level k + 1 and farRadius
 
 layout(rgba32f, binding = 0) uniform image2D fine;
 
 struct Point {
     vec3 position;
     vec3 normal;
-    vec2 uv;
-    int material;
     float R_P;
 };
 
@@ -31,7 +30,7 @@ Point fetchPoint(ivec2 pixel, int mip, out bool covered) {
     vec4 p = texelFetch(positions, pixel, mip);
     vec4 s = texelFetch(surfaces, pixel, mip);
     covered = p.w > 0.0 && s.z >= 0.0;
-    return Point(p.xyz, texelFetch(normals, pixel, mip).xyz, s.xy, max(int(s.z), 0), s.w);
+    return Point(p.xyz, texelFetch(normals, pixel, mip).xyz, s.w);
 }
 
 void main() {
@@ -46,7 +45,8 @@ void main() {
     }
     float depth = texelFetch(positions, pixel, level).w;
     float width = pixelWidthMm(depth) * float(2 << level);
-    vec3 ownFactor = logFarEnergy(o.material, o.uv, farRadius);
+    vec4 surfacePoint = texelFetch(surfaces, pixel, level);
+    vec3 ownFactor = logFarEnergy(int(surfacePoint.z), surfacePoint.xy, farRadius);
 
     vec2 position = (vec2(pixel) + 0.5) * 0.5 - 0.5;
     ivec2 base = ivec2(floor(position));
@@ -79,7 +79,7 @@ void main() {
                 float w = bilinear * exp(-0.25 * delta2 - plane) * (facing * facing + 0.001) * similar + (pass == 0 ? 1e-9 : 1e-12);
                 reliable += bilinear * exp(-0.25 * max(delta2 - 2.0, 0.0) - plane) * facing;
                 vec3 b = texelFetch(coarse, neighbor, level + 1).rgb;
-                vec3 factor = exp(ownFactor - logFarEnergy(j.material, j.uv, farRadius));
+                vec3 factor = exp(ownFactor - texelFetch(farEnergy, neighbor, 0).rgb);
                 sum += w * b * clamp(factor, vec3(0.05), vec3(20.0));
                 total += w;
             }

@@ -4,9 +4,11 @@
 #include "include/material.glsl"
 #include "include/surface.glsl"
 
-layout(location = 0) out vec4 outPosition; // xyz mm, view depth in mm (0: background)
 layout(location = 1) out vec4 outNormal;   // xyz towards the viewer, mesh id + 1
-#ifndef COVERAGE
+#ifdef COVERAGE
+layout(location = 0) out vec2 outDepth; // view depth in mm (0: background), mesh id + 1
+#else
+layout(location = 0) out vec4 outPosition; // xyz mm, view depth in mm (0: background)
 layout(location = 2) out vec4 outSurface;  // u, v, material (-1: opaque), R_P in mm
 layout(location = 3) out vec4 outLobe;     // normal of the specular lobe, roughness
 layout(location = 4) out vec4 outBase;     // base color (linear), metallic
@@ -56,10 +58,13 @@ vec3 mappedNormal(vec3 n) {
 void main() {
     // Both sides are seen: a back face shows the normal that faces the viewer.
     vec3 n = facingNormal(!gl_FrontFacing);
-    outPosition = vec4(surface.position, -(frame.view * vec4(surface.position, 1.0)).z);
+    float depth = -(frame.view * vec4(surface.position, 1.0)).z;
     outNormal = vec4(n, float(meshInfo.z));
-#ifndef COVERAGE
+#ifdef COVERAGE
+    outDepth = vec2(depth, float(meshInfo.z));
+#else
     int m = meshInfo.x;
+    outPosition = vec4(surface.position, depth);
     outSurface = vec4(surface.uv, float(m), m >= 0 ? materialRadii(m, surface.uv).x : 0.0);
     vec3 specularNormal = textureSets.z >= 0 ? mappedNormal(n) : n;
     vec2 metallicRoughness = lobe.xy;

@@ -6,12 +6,11 @@
 // distances their kernel takes.
 
 #include "renderer/gather/pair_kernel.h"
-
-#include <cstdint>
-
 #include "renderer/gather/pair_math.inl"
 #include "renderer/gather/pair_profiles.inl"
 #include "renderer/gather/pair_queue.inl"
+
+#include <cstdint>
 
 namespace celadon::gather {
 namespace {
@@ -72,7 +71,8 @@ struct Offsets {
     [[nodiscard]] Float squared() const { return x * x + y * y + z * z; }
 };
 
-/// Spheres about the pixels of a row, that is of one vector; without covered pixels of radius -1e30.
+/// Spheres about the pixels of a row, that is of one vector; without covered pixels of radius
+/// -1e30.
 class RowBounds {
 public:
     explicit RowBounds(const Tile& tile) {
@@ -163,7 +163,13 @@ public:
 private:
     /// Knots differ from pair to pair only where they may.
     static constexpr int kKnotColumns = kProfiles == Profiles::Any ? 3 : 0;
-    enum PairColumn { kClosestSquared, kBlurSquared, kSteepness, kWeight, kPairColumns = kWeight + 3 };
+    enum PairColumn {
+        kClosestSquared,
+        kBlurSquared,
+        kSteepness,
+        kWeight,
+        kPairColumns = kWeight + 3
+    };
     enum GentleColumn { kMiddle, kStep, kThird, kSum = kThird + 3, kGentleColumns = kSum + 3 };
     enum WideColumn { kCenter, kBlur, kWideWeight, kWideColumns = kWideWeight + 3 };
     using Pairs = PairQueue<kPairColumns + kKnotColumns>;
@@ -209,7 +215,8 @@ private:
     /// Weights and blurs of the pixels collected.
     void queue(const Candidate& candidate, float leastMm, int count) {
         const Sample& sample = *candidate.sample;
-        // Profiles of a painted map are more than a cache holds; most pairs are near the least distance.
+        // Profiles of a painted map are more than a cache holds; most pairs are near the least
+        // distance.
         const auto nearest = static_cast<int>(leastMm * sample.knots.perMm) * kKnotCodes;
         __builtin_prefetch(mSolve.codes + sample.profile + nearest);
         __builtin_prefetch(mSolve.codes + sample.profile + nearest + 8 * kKnotCodes);
@@ -219,18 +226,17 @@ private:
             const Float y = L::load(mY + i);
             const Float z = L::load(mZ + i);
             const Float squared = x * x + y * y + z * z;
-            const Float along = x * x * L::set(sample.diagonal[0]) +
-                                y * y * L::set(sample.diagonal[1]) +
-                                z * z * L::set(sample.diagonal[2]) +
-                                L::set(2.0f) * (x * y * L::set(sample.offDiagonal[0]) +
-                                                x * z * L::set(sample.offDiagonal[1]) +
-                                                y * z * L::set(sample.offDiagonal[2]));
+            const Float along =
+                x * x * L::set(sample.diagonal[0]) + y * y * L::set(sample.diagonal[1]) +
+                z * z * L::set(sample.diagonal[2]) +
+                L::set(2.0f) *
+                    (x * y * L::set(sample.offDiagonal[0]) + x * z * L::set(sample.offDiagonal[1]) +
+                     y * z * L::set(sample.offDiagonal[2]));
             const Float directed =
                 L::minimum((L::set(2.0f) * along) / L::maximum(squared, L::set(1e-8f)),
                            L::set(1.3f) * variance);
-            const Float q =
-                L::maximum(L::select(L::less(L::set(1e-8f), squared), directed, variance),
-                           L::set(0.0f));
+            const Float q = L::maximum(
+                L::select(L::less(L::set(1e-8f), squared), directed, variance), L::set(0.0f));
             const int at = mPairs.size + i;
             const auto put = [&](int column, Float v) { L::store(mPairs.columns[column] + at, v); };
             put(kClosestSquared, L::maximum(squared + variance - q, L::set(0.0f)));
@@ -247,8 +253,8 @@ private:
             if constexpr (kProfiles == Profiles::Any) {
                 put(kPairColumns, L::set(knots.perMm));
                 put(kPairColumns + 1, L::set(static_cast<float>(knots.segments - 1)));
-                put(kPairColumns + 2, L::minimum(L::set(knots.rangeMm),
-                                                 L::gather(mTile.rangeMm, mPairs.pixel + at)));
+                put(kPairColumns + 2,
+                    L::minimum(L::set(knots.rangeMm), L::gather(mTile.rangeMm, mPairs.pixel + at)));
             }
             for (int j = 0; j < L::kCount; ++j) {
                 mPairs.profile[at + j] = static_cast<std::int32_t>(sample.profile);
@@ -290,9 +296,9 @@ private:
         mPairs.drain(all, [&](int i) { computePairs(i); });
     }
 
-    /// The middle distance first. For a disc that is small beside its distance the rest is of second
-    /// order, q / 4 (f'' - f' / r): for f = e^(-s r) that is q / 4 s (s + 1 / r), for f = r^-n twice
-    /// the second term. Profiles lie between the two.
+    /// The middle distance first. For a disc that is small beside its distance the rest is of
+    /// second order, q / 4 (f'' - f' / r): for f = e^(-s r) that is q / 4 s (s + 1 / r), for f =
+    /// r^-n twice the second term. Profiles lie between the two.
     void computePairs(int i) {
         const PairIndices pairs = mPairs.indices(i);
         const PairKnots knots = knotsOf(mPairs, kPairColumns, i);
@@ -316,10 +322,9 @@ private:
             Float color[3];
             for (int c = 0; c < 3; ++c) {
                 const Float secondOrder = L::set(0.25f) * q * slopes[c] * (slopes[c] + perR);
-                color[c] = L::select(narrow,
-                                     mPairs.at(kWeight + c, i) * kernel[c] *
-                                         (L::set(1.0f) + secondOrder),
-                                     L::set(0.0f));
+                color[c] = L::select(
+                    narrow, mPairs.at(kWeight + c, i) * kernel[c] * (L::set(1.0f) + secondOrder),
+                    L::set(0.0f));
             }
             L::addColors(mTile.sums, pairs.pixel, color);
         }
@@ -331,11 +336,12 @@ private:
         const Float nearest = (closest - L::set(1.41421356f) * blur) * knots.perMm;
         change = L::select(L::less(nearest, L::set(1.0f)),
                            L::maximum(change, mPairs.at(kSteepness, i) * blur), change);
-        const Mask wide = L::both(rest, L::both(L::less(closest, L::set(4.0f) * blur),
-                                                L::less(L::set(1.0f), change)));
+        const Mask wide = L::both(
+            rest, L::both(L::less(closest, L::set(4.0f) * blur), L::less(L::set(1.0f), change)));
         const Mask gentle = L::without(rest, wide);
         if (any(gentle)) {
-            appendGentle(gentle, pairs, knots, i, middle, L::set(1.7320508f) * blur * closest, kernel);
+            appendGentle(gentle, pairs, knots, i, middle, L::set(1.7320508f) * blur * closest,
+                         kernel);
         }
         if (any(wide)) {
             const Mask steep = L::both(wide, L::less(L::set(4.0f), change));

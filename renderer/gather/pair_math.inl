@@ -1,5 +1,5 @@
-// Functions over vectors of lanes, and rules of integration, for pair_kernel.inl. Included after the
-// Lanes of one instruction set.
+// Functions over vectors of lanes, and rules of integration, for pair_kernel.inl. Included after
+// the Lanes of one instruction set.
 
 namespace celadon::gather {
 namespace {

@@ -22,8 +22,8 @@ public:
         : mTile(tile),
           mCodes(solve.codes),
           // Rounding up adds a quarter of a code on average.
-          mExponentOffset(solve.scale.exponentOffset -
-                          (kProfiles == Profiles::SameKnots ? 0.5f * solve.scale.exponentStep
+          mExponentOffset(solve.scale.exponentOffset - (kProfiles == Profiles::SameKnots
+                                                            ? 0.5f * solve.scale.exponentStep
                                                             : 0.0f)),
           mExponentStep(solve.scale.exponentStep) {}
 

@@ -84,6 +84,10 @@ public:
     void set(GLint location, std::span<const int> values) const {
         glProgramUniform1iv(id(), location, static_cast<GLsizei>(values.size()), values.data());
     }
+    void set(GLint location, std::span<const glm::vec2> values) const {
+        glProgramUniform2fv(id(), location, static_cast<GLsizei>(values.size()),
+                            values.empty() ? nullptr : &values[0].x);
+    }
     void set(GLint location, std::span<const glm::vec4> values) const {
         glProgramUniform4fv(id(), location, static_cast<GLsizei>(values.size()),
                             values.empty() ? nullptr : &values[0].x);

@@ -83,8 +83,13 @@ Texture Texture::make3d(std::string_view label, GLenum internalFormat, glm::ivec
     return make(label, GL_TEXTURE_3D, internalFormat, size, levels);
 }
 
+Texture Texture::makeMultisampled(std::string_view label, GLenum internalFormat, glm::ivec2 size,
+                                  int samples) {
+    return make(label, GL_TEXTURE_2D_MULTISAMPLE, internalFormat, glm::ivec3(size, 1), 1, samples);
+}
+
 Texture Texture::make(std::string_view label, GLenum target, GLenum internalFormat, glm::ivec3 size,
-                      int levels) {
+                      int levels, int samples) {
     CELADON_ASSERT(size.x > 0 && size.y > 0 && size.z > 0 && levels > 0);
     const glm::ivec3 largest = largestSize(target);
     const auto fail = [&](const std::string& reason) {
@@ -103,7 +108,10 @@ Texture Texture::make(std::string_view label, GLenum target, GLenum internalForm
     texture.mSize = size;
     texture.mLevels = levels;
     labelObject(GL_TEXTURE, texture.id(), label);
-    if (target == GL_TEXTURE_2D) {
+    if (target == GL_TEXTURE_2D_MULTISAMPLE) {
+        glTextureStorage2DMultisample(texture.id(), samples, internalFormat, size.x, size.y,
+                                      GL_TRUE);
+    } else if (target == GL_TEXTURE_2D) {
         glTextureStorage2D(texture.id(), levels, internalFormat, size.x, size.y);
     } else {
         glTextureStorage3D(texture.id(), levels, internalFormat, size.x, size.y, size.z);
@@ -115,7 +123,9 @@ Texture Texture::make(std::string_view label, GLenum target, GLenum internalForm
                              static_cast<double>(pixelFormat(internalFormat).bytesPerTexel);
         fail(fmt::format("the driver refuses its storage ({:.0f} MB)", bytes / 1e6));
     }
-    texture.applyDefaultSampling();
+    if (target != GL_TEXTURE_2D_MULTISAMPLE) { // has no such parameters
+        texture.applyDefaultSampling();
+    }
     return texture;
 }
 
@@ -160,6 +170,12 @@ Texture Texture::view(std::string_view label, GLenum target, int firstLevel, int
     labelObject(GL_TEXTURE, viewId, label);
     texture.applyDefaultSampling();
     return texture;
+}
+
+int Texture::samples() const {
+    GLint samples = 0;
+    glGetTextureLevelParameteriv(id(), 0, GL_TEXTURE_SAMPLES, &samples);
+    return std::max(samples, 1);
 }
 
 glm::ivec3 Texture::size(int level) const {

@@ -45,6 +45,10 @@ public:
                                         glm::ivec2 size, int levels = 1);
     [[nodiscard]] static Texture makeArray(std::string_view label, GLenum internalFormat,
                                            glm::ivec2 size, int layers, int levels = 1);
+    /// Several samples a pixel at fixed places, to be drawn to and fetched, nothing else; one
+    /// level. The driver may give more samples, see samples(), up to its limits.
+    [[nodiscard]] static Texture makeMultisampled(std::string_view label, GLenum internalFormat,
+                                                  glm::ivec2 size, int samples);
     [[nodiscard]] static Texture make3d(std::string_view label, GLenum internalFormat,
                                         glm::ivec3 size, int levels = 1);
 
@@ -61,6 +65,8 @@ public:
     [[nodiscard]] GLenum format() const { return mFormat; }
     [[nodiscard]] int channels() const { return pixelFormat(mFormat).channels; }
     [[nodiscard]] int levels() const { return mLevels; }
+    /// Samples a pixel; 1 unless multisampled.
+    [[nodiscard]] int samples() const;
     /// Width, height and depth of a level; layers of an array do not shrink. 2D: depth 1.
     [[nodiscard]] glm::ivec3 size(int level = 0) const;
     [[nodiscard]] glm::ivec2 size2d(int level = 0) const { return glm::ivec2(size(level)); }
@@ -111,7 +117,7 @@ private:
     };
 
     static Texture make(std::string_view label, GLenum target, GLenum internalFormat,
-                        glm::ivec3 size, int levels);
+                        glm::ivec3 size, int levels, int samples = 1);
     [[nodiscard]] Texture view(std::string_view label, GLenum target, int firstLevel, int levels,
                                int firstLayer, int layers) const;
     void applyDefaultSampling();

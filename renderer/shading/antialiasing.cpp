@@ -2,7 +2,9 @@
 
 #include "renderer/gl/debug.h"
 #include "renderer/gl/pass_state.h"
+#include "renderer/splatting/irradiance_buffer.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -10,7 +12,10 @@ namespace celadon {
 
 namespace {
 
-/// Additive recurrence on the plastic number: well spread for any count of samples. In (-1/2, 1/2).
+constexpr int kMostPlaces = 16; ///< as coverage.glsl has it
+
+/// Additive recurrence on the plastic number: well spread for any count of draws. In (-1/2, 1/2);
+/// the first is 0.
 glm::dvec2 jitter(int index) {
     constexpr double kPlastic = 1.32471795724474602596;
     const glm::dvec2 step(1.0 / kPlastic, 1.0 / (kPlastic * kPlastic));
@@ -18,56 +23,104 @@ glm::dvec2 jitter(int index) {
     return position - glm::floor(position) - 0.5;
 }
 
+int samplesOfADraw(int wanted) {
+    GLint colors = 1;
+    GLint depths = 1;
+    glGetIntegerv(GL_MAX_COLOR_TEXTURE_SAMPLES, &colors);
+    glGetIntegerv(GL_MAX_DEPTH_TEXTURE_SAMPLES, &depths);
+    return std::min({wanted, colors, depths, kMostPlaces});
+}
+
+/// Of the framebuffer, which decides them.
+std::vector<glm::vec2> samplePlaces(const gl::Framebuffer& framebuffer, int count) {
+    gl::PassState::covering(framebuffer).apply();
+    std::vector<glm::vec2> places(static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        glGetMultisamplefv(GL_SAMPLE_POSITION, static_cast<GLuint>(i), &places[i].x);
+        places[i] -= 0.5f;
+    }
+    return places;
+}
+
 } // namespace
 
-Antialiasing::Antialiasing(const gl::ShaderLibrary& shaders, const SplattingBuffer& view)
-    : mPositions(gl::Texture::make2d("coverage: positions", GL_RGBA32F, view.size())),
-      mNormals(gl::Texture::make2d("coverage: normals", GL_RGBA32F, view.size())),
-      mDepth(gl::Texture::make2d("coverage: depth", GL_DEPTH_COMPONENT32F, view.size())),
+Antialiasing::Antialiasing(const gl::ShaderLibrary& shaders, const SplattingBuffer& view,
+                           int samples)
+    : mSamples(gl::Texture::makeMultisampled("coverage: samples", GL_RG32F, view.size(),
+                                             samplesOfADraw(samples))),
+      mNormals(gl::Texture::makeMultisampled("coverage: normals", GL_RGBA16F, view.size(),
+                                             mSamples.samples())),
+      mDepthBuffer(gl::Texture::makeMultisampled("coverage: depth buffer", GL_DEPTH_COMPONENT32F,
+                                                 view.size(), mSamples.samples())),
       mColor(gl::Texture::make2d("color", GL_RGBA32F, view.size())),
-      mSampleFramebuffer("coverage", {{&mPositions}, {&mNormals}}, gl::Attachment{&mDepth}),
-      mColorFramebuffer("color", {{&mColor}}),
+      mDraws((samples + mSamples.samples() - 1) / mSamples.samples()),
+      mSampleFramebuffer("coverage", {{&mSamples}, {&mNormals}}, gl::Attachment{&mDepthBuffer}),
       mFrameBlock("jittered frame", sizeof(blocks::FrameBlock), gl::BufferUse::Update),
-      mNoAttributes("no attributes"),
+      mEdges("edge pixels",
+             sizeof(GLuint) * (4 + static_cast<std::size_t>(view.size().x) *
+                                       static_cast<std::size_t>(view.size().y)),
+             gl::BufferUse::Update),
       mSample("coverage", shaders, {"surface.vert", "splatting_buffer.frag"},
               {{"CAMERA", "1"}, {"COVERAGE", "1"}}),
-      mResolve("antialiasing", shaders, {"fullscreen.vert", "antialias.frag"}) {}
+      mInterior("coverage inside", shaders, {"coverage_interior.comp"}),
+      mEdge("coverage at edges", shaders, {"coverage_edge.comp"}) {
+    mPlaces = samplePlaces(mSampleFramebuffer, std::min(mSamples.samples(), kMostPlaces));
+}
+
+void Antialiasing::drawSamples(const GpuWorld& world, const CameraView& jittered,
+                               const SplattingBuffer& view) {
+    mFrameBlock.write(std::array{makeFrameBlock(jittered, view.size(), view.paddedSize(), 0.0)});
+    mFrameBlock.bindUniform(blocks::kFrame);
+    gl::PassState state = gl::PassState::covering(mSampleFramebuffer);
+    state.depthTest = gl::DepthTest::Greater;
+    state.depthWrite = true;
+    state.apply();
+    mSampleFramebuffer.clearColor(0, glm::vec4(0.0f));
+    mSampleFramebuffer.clearColor(1, glm::vec4(0.0f));
+    mSampleFramebuffer.clearDepth(0.0f);
+    world.draw(mSample, false);
+}
+
+void Antialiasing::resolveDraw(const SplattingBuffer& view, const gl::Texture& radiance,
+                               glm::dvec2 offset) {
+    mEdges.write(std::array<GLuint, 4>{0, 1, 1, 0});
+    mEdges.bindStorage(0);
+    mEdges.bind(GL_DISPATCH_INDIRECT_BUFFER);
+    view.positions().bind(0);
+    view.normals().bind(1);
+    radiance.bind(2);
+    mSamples.bind(3);
+    mNormals.bind(4);
+    mColor.bindImage(0, 0, GL_READ_WRITE);
+    const auto samples = static_cast<int>(mPlaces.size());
+    for (const gl::Program* program : {&mInterior, &mEdge}) {
+        program->set(0, glm::vec3(offset, 1.0 / (samples * mDraws)));
+        program->set(1, samples);
+        program->set(2, std::span<const glm::vec2>(mPlaces));
+    }
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    mInterior.use();
+    dispatchOver(view.size());
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
+                    GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    mEdge.use();
+    glDispatchComputeIndirect(0);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                    GL_BUFFER_UPDATE_BARRIER_BIT);
+}
 
 void Antialiasing::resolve(const GpuWorld& world, const Camera& camera,
                            const BoundingSphere& sceneSphere, const SplattingBuffer& view,
-                           const gl::Texture& radiance, int samples) {
+                           const gl::Texture& radiance) {
     const gl::DebugGroup group("antialiasing");
     mColor.clear(0, glm::vec4(0.0f));
-    for (int i = 0; i < samples; ++i) {
-        const glm::dvec2 offset = samples == 1 ? glm::dvec2(0.0) : jitter(i);
-        // The picture moves against the sample's offset from the pixel's center.
-        const CameraView jittered =
-            makeCameraView(camera, view.size().x, view.size().y, sceneSphere, -offset);
-        mFrameBlock.write(
-            std::array{makeFrameBlock(jittered, view.size(), view.paddedSize(), 0.0)});
-        mFrameBlock.bindUniform(blocks::kFrame);
-
-        gl::PassState sampleState = gl::PassState::covering(mSampleFramebuffer);
-        sampleState.depthTest = gl::DepthTest::Greater;
-        sampleState.depthWrite = true;
-        sampleState.apply();
-        mSampleFramebuffer.clearColor(0, glm::vec4(0.0f));
-        mSampleFramebuffer.clearColor(1, glm::vec4(0.0f));
-        mSampleFramebuffer.clearDepth(0.0f);
-        world.draw(mSample, false);
-
-        gl::PassState state = gl::PassState::covering(mColorFramebuffer);
-        state.blend = gl::Blend::Additive;
-        state.apply();
-        mResolve.use();
-        mResolve.set(0, glm::vec3(offset, 1.0 / samples));
-        view.positions().bind(0);
-        view.normals().bind(1);
-        radiance.bind(2);
-        mPositions.bind(3);
-        mNormals.bind(4);
-        mNoAttributes.bind();
-        glDrawArrays(GL_TRIANGLES, 0, 3);
+    for (int i = 0; i < mDraws; ++i) {
+        // The picture moves against the draw's offset from the pixel's center.
+        const glm::dvec2 offset = jitter(i);
+        drawSamples(world,
+                    makeCameraView(camera, view.size().x, view.size().y, sceneSphere, -offset),
+                    view);
+        resolveDraw(view, radiance, offset);
     }
 }
 

@@ -11,7 +11,7 @@ DirectLight::DirectLight(const gl::ShaderLibrary& shaders, const SplattingBuffer
       mShadowMap(gl::Texture::make2d("shadow map", GL_DEPTH_COMPONENT32F, glm::ivec2(shadowSize))),
       mShadowFramebuffer("shadow map", {}, gl::Attachment{&mShadowMap}),
       mRadiance(gl::Texture::make2d("direct radiance", GL_RGBA32F, view.size())),
-      mFramebuffer("direct radiance", {{&mRadiance}}),
+      mFramebuffer("direct radiance", {{&mRadiance}}, gl::Attachment{&view.depth()}),
       mLightBlock("shadow light", sizeof(blocks::LightBlock), gl::BufferUse::Update),
       mNoAttributes("no attributes"),
       mShadow("shadow map", shaders, {"surface.vert", "shadow_map.frag"}),
@@ -40,6 +40,7 @@ void DirectLight::shade(std::span<const Light> lights, const BoundingSphere& sce
 
             gl::PassState state = gl::PassState::covering(mFramebuffer);
             state.blend = gl::Blend::Additive;
+            state.depthTest = gl::DepthTest::Less; // the triangle lies at 0: covered pixels only
             state.apply();
             mShade.use();
             mShade.set(0, specular);

@@ -12,7 +12,7 @@ namespace celadon {
 
 class Accumulation {
 public:
-    Accumulation(const gl::ShaderLibrary& shaders, int materialCount);
+    Accumulation(const gl::ShaderLibrary& shaders, int materialCount, const SplattingBuffer& view);
 
     /// @param exitance    B of every level
     /// @param ringStartMm per level: where its ring begins, for the mean material at mean depth
@@ -20,7 +20,8 @@ public:
                     std::span<const double> ringStartMm) const;
 
 private:
-    gl::Program mProgram;
+    std::vector<gl::Texture> mFarEnergies; ///< of level 1, 2, …
+    gl::Program mFarEnergy, mProgram;
 };
 
 } // namespace celadon

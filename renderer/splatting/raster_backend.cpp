@@ -26,7 +26,8 @@ RasterBackend::RasterBackend(const gl::ShaderLibrary& shaders, const GpuMaterial
     }
 }
 
-void RasterBackend::begin(const SolveInput&) {
+void RasterBackend::begin(const SolveInput& input) {
+    input.view.buildTileRanges();
     mSplat.clear();
 }
 

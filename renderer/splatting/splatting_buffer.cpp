@@ -90,6 +90,11 @@ void SplattingBuffer::buildMips(double clusterDepthMm) {
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
         dispatchOver(mTargets[0].size2d(level));
     }
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void SplattingBuffer::buildTileRanges() {
+    const gl::DebugGroup group("tile ranges");
     mTileRange.use();
     mTargets[0].bind(0);
     mTargets[2].bind(1);

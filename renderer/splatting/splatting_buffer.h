@@ -22,9 +22,10 @@ public:
     /// Draws level 0 with all looks and binds the frame block.
     /// @param R_w bounding sphere diameter in mm
     void draw(const GpuWorld& world, const CameraView& view, double R_w);
-    /// Levels 1 and up, and the tiles' ranges. @param clusterDepthMm depths that count as one
-    /// surface
+    /// Levels 1 and up. @param clusterDepthMm depths that count as one surface
     void buildMips(double clusterDepthMm);
+    /// For backends that draw splats, see tileRanges().
+    void buildTileRanges();
 
     [[nodiscard]] glm::ivec2 size() const { return mSize; }
     [[nodiscard]] glm::ivec2 paddedSize() const { return mPaddedSize; }
@@ -36,6 +37,8 @@ public:
     [[nodiscard]] const gl::Texture& lobes() const { return mTargets[3]; }
     [[nodiscard]] const gl::Texture& bases() const { return mTargets[4]; }
     [[nodiscard]] const gl::Texture& emissions() const { return mTargets[5]; }
+    /// Reversed, 0 where nothing is seen; of the padded size.
+    [[nodiscard]] const gl::Texture& depth() const { return mDepth; }
     /// RG32F: least and greatest view depth of scattering surface in tiles of 8 x 8 pixels of level
     /// 0 and, in its mips, of 2 x 2 of those; empty tiles have least > greatest.
     [[nodiscard]] const gl::Texture& tileRanges() const { return mTileRanges; }

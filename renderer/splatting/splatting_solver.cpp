@@ -28,7 +28,7 @@ SplattingSolver::SplattingSolver(const gl::ShaderLibrary& shaders,
                                  const GpuMaterials& materials, const SplattingBuffer& view,
                                  const SplattingSettings& settings)
     : mSettings(settings),
-      mAccumulation(shaders, materials.count()),
+      mAccumulation(shaders, materials.count(), view),
       mSolveBlock("solve", sizeof(blocks::SolveBlock), gl::BufferUse::Update) {
     CELADON_ASSERT(settings.backend != SplatBackendKind::Auto);
     if (settings.backend == SplatBackendKind::Cpu) {

@@ -1,0 +1,35 @@
+// Antialiasing, first pass: a pixel all of whose samples show what its center shows keeps its radiance.
+// The others, at silhouettes, are listed for coverage_edge.comp.
+#include "include/coverage.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(color)))) {
+        return;
+    }
+    vec4 position = texelFetch(positions, pixel, 0);
+    vec4 normal = texelFetch(normals, pixel, 0);
+    // A sample's plane may pass one pixel beside the center's, along the ray.
+    float slack = pixelWidthMm(position.w) / max(abs(dot(normal.xyz, directionToEye(position.xyz))), 0.05);
+    bool covered = position.w > 0.0;
+    int same = 0;
+    for (int i = 0; i < sampleCount; ++i) {
+        vec2 s = texelFetch(samples, pixel, i).xy;
+        bool alike = covered ? s.y == normal.w && abs(s.x - position.w) < slack : s.x <= 0.0;
+        same += alike ? 1 : 0;
+    }
+    if (same == sampleCount) {
+        if (covered) {
+            vec4 own = vec4(texelFetch(radiance, pixel, 0).rgb, 1.0) * (jitterAndWeight.z * float(sampleCount));
+            imageStore(color, pixel, imageLoad(color, pixel) + own);
+        }
+        return;
+    }
+    uint index = atomicAdd(edgeCount, 1u);
+    if (index % 64u == 0u) {
+        atomicAdd(groups[0], 1u);
+    }
+    edges[index] = uint(pixel.x) + 65536u * uint(pixel.y);
+}

@@ -1,0 +1,20 @@
+// For accumulation.comp: ln of the far energy of each texel of a level of the splatting buffer.
+#include "include/material.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(location = 0) uniform int level;
+layout(location = 1) uniform float farRadius; // where the level's ring begins, for the mean material at mean depth, mm
+
+layout(binding = 0) uniform sampler2D surfaces;
+
+layout(rgba32f, binding = 0) uniform writeonly image2D result;
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(result)))) {
+        return;
+    }
+    vec4 s = texelFetch(surfaces, pixel, level);
+    imageStore(result, pixel, vec4(s.z >= 0.0 ? logFarEnergy(int(s.z), s.xy, farRadius) : vec3(0.0), 0.0));
+}
