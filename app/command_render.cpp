@@ -18,6 +18,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -37,9 +38,6 @@ void refuseUnbuilt(const RenderOptions& options) {
     const auto refuse = [](const std::string& what) {
         throw UsageError(what, "is not built yet", "leave it out");
     };
-    if (options.solver == Solver::PathTraced) {
-        refuse("--solver path-traced");
-    }
     if (options.backend == SplatBackendKind::Tiled) {
         refuse("--backend tiled");
     }
@@ -55,8 +53,16 @@ FrameSettings frameSettings(const RenderOptions& options) {
     case Solver::SurfaceReference:
         settings.solver = SolverKind::SurfaceReference;
         break;
-    case Solver::Splatting:
     case Solver::PathTraced:
+        settings.solver = SolverKind::PathTraced;
+        settings.pathTraced.medium = mediumOf(options).value();
+        settings.pathTraced.paths = static_cast<std::uint64_t>(options.paths);
+        settings.pathTraced.noise = options.noise;
+        settings.pathTraced.progress =
+            [bar = std::make_shared<Progress>("paths", static_cast<std::size_t>(options.paths))](
+                std::uint64_t paths, double) { bar->update(paths); };
+        break;
+    case Solver::Splatting:
         settings.solver = SolverKind::Splatting;
         break;
     }
@@ -79,6 +85,7 @@ FrameSettings frameSettings(const RenderOptions& options) {
     }
     splatting.discontinuity = options.discontinuity.value_or(splatting.discontinuity);
     splatting.energy = options.energy.value_or(splatting.energy);
+    splatting.orientation = options.orientation;
     splatting.adaptive = options.adaptive;
     splatting.multiresolution = options.multiresolution;
     settings.exitFresnel = options.exitFresnel;
@@ -177,6 +184,20 @@ void warnAboutRadius(const World& world, const FrameStats& stats) {
     }
 }
 
+/// What a reference knows of its own error.
+void tellNoise(const ReferenceError& noise) {
+    constexpr double kMuchLost = 1e-3;
+    if (std::isfinite(noise.relativeError)) {
+        log::info("relative error {:.3g} (standard)", noise.relativeError);
+    }
+    if (noise.lostFlux > kMuchLost) {
+        log::warning(
+            "{:.2g} of the light got lost through holes of the mesh: path-traced needs a closed "
+            "surface whose fronts look outwards",
+            noise.lostFlux);
+    }
+}
+
 /// What the frames of one world share: its motion, and the renderer that its vertices move in. The
 /// frame's camera and lights are found with the rest pose's bounds, so that a default view stands
 /// still while the object moves.
@@ -219,6 +240,7 @@ public:
         if (frame.seesScattering) {
             warnAboutRadius(shown, frame.stats);
         }
+        tellNoise(frame.stats.reference);
         return frame;
     }
 
@@ -239,7 +261,7 @@ private:
 
     /// @return the time of it, ms
     double move(const Pose& pose) {
-        if (mMotion.moves() && mSettings.solver == SolverKind::SurfaceReference) {
+        if (mMotion.moves() && tracesRays(mSettings.solver)) {
             mRenderer.reset();
             mPosed = posedWorld(mWorld, pose);
             mRenderer = std::make_unique<FrameRenderer>(mContext, *mPosed, mSettings);

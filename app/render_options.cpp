@@ -183,6 +183,9 @@ void addMethod(CLI::App& app, RenderOptions& o) {
     addOption(app, "--discontinuity",
               {group, "Z", "Depth step within a sample, bounding sphere radii; default 0.03"},
               takeNumber(o.discontinuity, {0.0, 1e6, true}));
+    addFlag(app, "--no-orientation", group,
+            "Scheme paper: selection without the slope to the light (eq. 11 without |n.l|)",
+            o.orientation, false);
     addOption(app, "--energy",
               {group, "F",
                "Part of a profile's energy that a splat reaches to; default 0.99 (paper: 0.95)"},
@@ -195,6 +198,18 @@ void addMethod(CLI::App& app, RenderOptions& o) {
               takeChoice(o.exitFresnel, kExitFresnels));
     addFlag(app, "--point-samples", group, "Samples are points, as in the paper, not patches",
             o.pointSamples);
+}
+
+void addPathTraced(CLI::App& app, RenderOptions& o) {
+    addMediumOptions(app, o.medium);
+    const char* group = "Path tracing";
+    addOption(app, "--paths",
+              {group, "N",
+               fmt::format("path-traced: light paths at most; default {}, all of them", o.paths)},
+              takeInteger(o.paths, 1, 2'000'000'000));
+    addOption(app, "--noise",
+              {group, "F", "path-traced: stops when the relative error is this; default 0, never"},
+              takeNumber(o.noise, {0.0, 1.0, false}));
 }
 
 void require(bool condition, const std::string& subject, const std::string& reason,
@@ -259,6 +274,17 @@ const char* backendName(SplatBackendKind backend) {
     return kBackends.at(static_cast<std::size_t>(backend)).data();
 }
 
+std::optional<subedit::Medium> mediumOf(const RenderOptions& options) {
+    if (options.medium == MediumOptions{}) {
+        return std::nullopt;
+    }
+    return makeMedium(options.medium, mediumSource(options.medium, "render"));
+}
+
+SplatBackendKind parseBackend(const Argument& argument) {
+    return static_cast<SplatBackendKind>(parseChoice(argument, kBackends));
+}
+
 void addRenderOptions(CLI::App& app, RenderOptions& options) {
     addFiles(app, options);
     addPicture(app, options);
@@ -266,6 +292,7 @@ void addRenderOptions(CLI::App& app, RenderOptions& options) {
     addLights(app, options);
     addMotion(app, options);
     addMethod(app, options);
+    addPathTraced(app, options);
 }
 
 void validateRenderOptions(const RenderOptions& o) {
@@ -279,6 +306,13 @@ void validateRenderOptions(const RenderOptions& o) {
             "choose another name");
     require(!(o.table && o.epsilon), "--epsilon", "does not go with --table",
             "the table was made for its own");
+    const bool hasMedium = mediumOf(o).has_value();
+    require(!(hasMedium && o.material), "--material", "does not go with a medium",
+            "leave out --material or --preset, --absorption, --albedo");
+    require(hasMedium || o.solver != Solver::PathTraced, "--solver path-traced",
+            "it follows light in a medium, whose coefficients no SubEdit material holds",
+            "give --preset NAME (see 'celadon profile list'), --absorption with "
+            "--reduced-scattering, or --albedo with --mean-free-path, instead of --material");
     validateMotion(o);
     validateView(o);
 }

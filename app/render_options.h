@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/argument.h"
+#include "app/profile/medium_options.h"
 #include "renderer/frame_quality.h"
 #include "renderer/gl/context.h"
 #include "renderer/output/tone_map.h"
@@ -30,6 +31,8 @@ enum class Solver { Splatting, ImageReference, SurfaceReference, PathTraced };
 [[nodiscard]] const char* schemeName(Scheme scheme);
 [[nodiscard]] const char* qualityName(Quality quality);
 [[nodiscard]] const char* backendName(SplatBackendKind backend);
+/// @throws UsageError
+[[nodiscard]] SplatBackendKind parseBackend(const Argument& argument);
 
 struct RenderOptions {
     // Input and output
@@ -78,11 +81,20 @@ struct RenderOptions {
     std::optional<std::filesystem::path> table; ///< of minimal radii, instead of the materials' own
     std::optional<double> discontinuity;        ///< z_0 in bounding sphere radii
     std::optional<double> energy;
+    bool orientation = true;
     bool adaptive = true;
     bool multiresolution = true;
     ExitFresnel exitFresnel = ExitFresnel::Exact;
     bool pointSamples = false;
+
+    // A homogeneous medium instead of a material, and how long paths are traced in it
+    MediumOptions medium;
+    int paths = 4'000'000;
+    double noise = 0.0; ///< 0: all paths
 };
+
+/// The medium that is asked for; unset where none is. @throws UsageError
+[[nodiscard]] std::optional<subedit::Medium> mediumOf(const RenderOptions& options);
 
 /// Registers every option of the struct. Values are checked while the command line is parsed.
 void addRenderOptions(CLI::App& app, RenderOptions& options);

@@ -8,6 +8,7 @@
 #include "renderer/scene/light.h"
 #include "renderer/scene/load_scene.h"
 #include "subedit/map/material_file.h"
+#include "subedit/map/medium_bake.h"
 #include "subedit/map/shipped_materials.h"
 
 #include <map>
@@ -17,6 +18,7 @@ namespace celadon::app {
 namespace {
 
 constexpr std::string_view kBuiltinPrefix = "builtin:";
+constexpr int kMediumSegments = 64;
 
 MaterialPointer readMaterialFile(const std::filesystem::path& file) {
     std::vector<std::string> warnings;
@@ -40,6 +42,16 @@ MaterialPointer readMaterialArgument(const std::string& nameOrPath) {
     return readMaterialFile(subedit::findMaterial(nameOrPath));
 }
 
+MaterialPointer bakeMedium(const subedit::Medium& medium) {
+    subedit::MediumMap map{1, 1, static_cast<float>(medium.eta), {}, {}, {}};
+    map.absorption = {glm::vec3(medium.absorption)};
+    map.reducedScattering = {glm::vec3(medium.reducedScattering)};
+    auto baked = std::make_shared<subedit::MaterialMap>(
+        subedit::bakeMedia(map, {kMediumSegments, 0.0, 0.999}));
+    baked->name = "medium";
+    return baked;
+}
+
 World readWorld(const RenderOptions& options, int frame) {
     const std::string model = options.sequence
                                   ? FramePattern("--sequence", *options.sequence).name(frame)
@@ -48,7 +60,9 @@ World readWorld(const RenderOptions& options, int frame) {
     MaterialPointer override;
     std::vector<MaterialPointer> named(scene.materials.size());
     MaterialPointer fallback;
-    if (options.material) {
+    if (const std::optional<subedit::Medium> medium = mediumOf(options)) {
+        override = bakeMedium(*medium);
+    } else if (options.material) {
         const std::string material = hasFrameField(*options.material)
                                          ? FramePattern("--material", *options.material).name(frame)
                                          : *options.material;

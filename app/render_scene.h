@@ -16,6 +16,10 @@ namespace celadon::app {
 /// warnings.
 [[nodiscard]] MaterialPointer readMaterialArgument(const std::string& nameOrPath);
 
+/// One texel: the profile of a homogeneous medium, by photon beam diffusion and with the albedo of
+/// the half space (subedit/map/medium_bake.h).
+[[nodiscard]] MaterialPointer bakeMedium(const subedit::Medium& medium);
+
 /// Everything that frame `frame` shows: patterns in model and material are filled in.
 [[nodiscard]] World readWorld(const RenderOptions& options, int frame);
 

@@ -94,12 +94,15 @@ struct FrameRenderer::Passes {
                                                        settings.splatting);
             break;
         case SolverKind::ImageReference:
-            solver = std::make_unique<ImageReferenceSolver>(shaders, materials.count(),
-                                                            settings.splatting.irradianceSize,
-                                                            settings.pointSamples);
+            solver = std::make_unique<ImageReferenceSolver>(
+                shaders, materials.count(), settings.splatting.irradianceSize,
+                settings.pointSamples, settings.referenceBlocks);
             break;
         case SolverKind::SurfaceReference:
-            solver = std::make_unique<SurfaceReferenceSolver>(world);
+            solver = std::make_unique<SurfaceReferenceSolver>(world, settings.referenceBlocks);
+            break;
+        case SolverKind::PathTraced:
+            solver = std::make_unique<PathTracedSolver>(world, settings.pathTraced);
             break;
         }
     }

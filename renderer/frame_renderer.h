@@ -7,6 +7,7 @@
 #include "renderer/gpu_world.h"
 #include "renderer/output/frame_stats.h"
 #include "renderer/output/image.h"
+#include "renderer/reference/path_traced_settings.h"
 #include "renderer/scene/camera.h"
 #include "renderer/scene/world.h"
 #include "renderer/splatting/splatting_settings.h"
@@ -17,7 +18,13 @@
 /// One way through the program: world and camera in, lit geometry, exitance, shading, picture out.
 namespace celadon {
 
-enum class SolverKind { Splatting, ImageReference, SurfaceReference };
+enum class SolverKind { Splatting, ImageReference, SurfaceReference, PathTraced };
+
+/// Whether a solver traces rays: it takes the world as it stands on the CPU, so that a moved one
+/// must be posed there.
+[[nodiscard]] constexpr bool tracesRays(SolverKind solver) {
+    return solver == SolverKind::SurfaceReference || solver == SolverKind::PathTraced;
+}
 
 struct FrameSettings {
     glm::ivec2 size{800, 600};
@@ -25,6 +32,10 @@ struct FrameSettings {
     SplattingSettings splatting;
     ExitFresnel exitFresnel = ExitFresnel::Exact;
     bool pointSamples = false; ///< image-reference: texels as points, the paper's
+    PathTracedSettings pathTraced;
+    /// References by eq. 4 and 5: of the picture's blocks of 8 x 8 pixels one in so many is
+    /// computed, chosen as by chance (isReferencePixel); the others are black.
+    int referenceBlocks = 1;
     bool specular = true;
     int coverageSamples = 4;
     int shadowSize = 1024;

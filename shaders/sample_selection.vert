@@ -31,7 +31,7 @@ bool isFit(ivec2 node, int level) {
     if (!(range.y - range.x < solve.selection.y)) {
         return false;
     }
-    float cosine = abs(texelFetch(normals, node, level).w);
+    float cosine = solve.selection.w > 0.0 ? abs(texelFetch(normals, node, level).w) : 1.0;
     float radius = texelFetch(extents, node, level).z;
     float width = (texelFetch(positions, node, level).w * light.cone.z + light.cone.w) * float(1 << level);
     return width * solve.selection.x < radius * cosine;

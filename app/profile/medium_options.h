@@ -20,6 +20,8 @@ struct MediumOptions {
     std::string meanFreePath;
     std::optional<double> eta;
     double anisotropy = 0.0;
+
+    bool operator==(const MediumOptions&) const = default;
 };
 
 inline constexpr double kDefaultEta = 1.3; ///< of the media that Jensen et al. 2001 measured

@@ -84,7 +84,8 @@ void SampleTree::select(std::size_t level) {
             const float width = (mean.depth * mSettings.texelScale + mSettings.texelOffset) *
                                 static_cast<float>(1u << level);
             fit = farthest - nearest < mSettings.discontinuityMm &&
-                  width * mSettings.alpha < mean.R_P * std::abs(mean.cosine);
+                  width * mSettings.alpha <
+                      mean.R_P * (mSettings.orientation ? std::abs(mean.cosine) : 1.0f);
         }
         const bool below = node.ball > 0.0f;
         node.selected = fit && !below;

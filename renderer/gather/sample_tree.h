@@ -32,6 +32,7 @@ struct TreeSettings {
     double cutEnergy = 1.0;       ///< that R_cut holds; 1: R_cut = r_s
     float alpha = 15.0f;          ///< eq. 11
     float discontinuityMm = 0.0f; ///< z_0, eq. 10
+    bool orientation = true;      ///< |n . l| in eq. 11
     float texelScale = 0.0f;      ///< width of a texel at depth z of the light's view:
     float texelOffset = 0.0f;     ///<   z * texelScale + texelOffset, mm
     float sampleAngle = 1.8f;     ///< theta_s

@@ -46,6 +46,11 @@ Json frameJson(const FrameStats& frame) {
                                    {"mean", number(frame.effectiveRadius.meanMm)},
                                    {"max", number(frame.effectiveRadius.maxMm)},
                                    {"pixels", number(frame.effectiveRadius.meanPixels)}};
+    if (std::isfinite(frame.reference.relativeError)) {
+        json["reference"] = Json{{"relativeError", number(frame.reference.relativeError)},
+                                 {"paths", frame.reference.paths},
+                                 {"lostFlux", number(frame.reference.lostFlux)}};
+    }
     return json;
 }
 

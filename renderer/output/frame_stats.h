@@ -43,12 +43,20 @@ struct EffectiveRadiusRange {
     double meanPixels = kNotMeasured; ///< the mean radius as seen in the picture
 };
 
+/// What a reference says of its own error.
+struct ReferenceError {
+    double relativeError = kNotMeasured; ///< standard error over the exitance, root mean squares
+    std::uint64_t paths = 0;             ///< path-traced: light paths
+    double lostFlux = kNotMeasured;      ///< path-traced: part that went out through holes
+};
+
 struct FrameStats {
     int frame = 0;
     StageMilliseconds milliseconds;
     SampleCounts samples;
     FluxTotals flux;
     EffectiveRadiusRange effectiveRadius;
+    ReferenceError reference; ///< JSON has it where it was measured
 };
 
 struct RenderStats {

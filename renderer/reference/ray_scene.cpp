@@ -157,10 +157,10 @@ RTCRay makeRay(glm::dvec3 origin, glm::dvec3 direction, double length) {
 
 } // namespace
 
-std::optional<RayScene::Hit> RayScene::nearest(glm::dvec3 origin, glm::dvec3 direction) const {
+std::optional<RayScene::Hit> RayScene::nearest(glm::dvec3 origin, glm::dvec3 direction,
+                                               double distanceMm) const {
     RTCRayHit query{};
-    query.ray =
-        makeRay(origin - mEmbree->center, direction, std::numeric_limits<double>::infinity());
+    query.ray = makeRay(origin - mEmbree->center, direction, distanceMm);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     RTCIntersectContext context;
@@ -174,10 +174,13 @@ std::optional<RayScene::Hit> RayScene::nearest(glm::dvec3 origin, glm::dvec3 dir
                static_cast<double>(query.ray.tfar)};
 }
 
-bool RayScene::isOccluded(const SurfacePoint& from, glm::dvec3 direction, double distanceMm) const {
+glm::dvec3 RayScene::liftedOrigin(const SurfacePoint& from, glm::dvec3 direction) const {
     const double side = glm::dot(from.geometricNormal, direction) < 0.0 ? -1.0 : 1.0;
-    const glm::dvec3 origin = from.positionMm + side * mEmbree->liftMm * from.geometricNormal;
-    RTCRay ray = makeRay(origin - mEmbree->center, direction, distanceMm);
+    return from.positionMm + side * mEmbree->liftMm * from.geometricNormal;
+}
+
+bool RayScene::isOccluded(const SurfacePoint& from, glm::dvec3 direction, double distanceMm) const {
+    RTCRay ray = makeRay(liftedOrigin(from, direction) - mEmbree->center, direction, distanceMm);
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcOccluded1(mEmbree->scene, &context, &ray);

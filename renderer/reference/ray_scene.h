@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -49,12 +50,18 @@ public:
     };
 
     /// First surface along the ray, either side. Thread-safe.
-    /// @param direction  unit length
-    [[nodiscard]] std::optional<Hit> nearest(glm::dvec3 origin, glm::dvec3 direction) const;
+    /// @param direction   unit length
+    /// @param distanceMm  how far to look
+    [[nodiscard]] std::optional<Hit>
+    nearest(glm::dvec3 origin, glm::dvec3 direction,
+            double distanceMm = std::numeric_limits<double>::infinity()) const;
 
-    /// Whether anything lies between a point of the surface and `distanceMm` along `direction`.
-    /// The ray starts a hair above the point, on the side it leaves towards, so that the surface
-    /// does not shadow itself; nothing nearer than that is seen. Thread-safe.
+    /// Where a ray that leaves a point of the surface has to start so as not to meet that surface
+    /// again: a hair off it, on the side that the ray goes to.
+    [[nodiscard]] glm::dvec3 liftedOrigin(const SurfacePoint& from, glm::dvec3 direction) const;
+
+    /// Whether anything lies between a point of the surface and `distanceMm` along `direction`,
+    /// starting at liftedOrigin(); nothing nearer than that is seen. Thread-safe.
     /// @param distanceMm  infinity for all the way
     [[nodiscard]] bool isOccluded(const SurfacePoint& from, glm::dvec3 direction,
                                   double distanceMm) const;

@@ -1,6 +1,7 @@
 #include "renderer/reference/reference_solvers.h"
 
 #include "renderer/reference/patch_gather.h"
+#include "renderer/reference/random.h"
 #include "renderer/splatting/splatting_buffer.h"
 
 namespace celadon {
@@ -59,10 +60,23 @@ std::vector<ExitPoint> readExitPoints(const SplattingBuffer& view) {
     return points;
 }
 
+bool isReferencePixel(int x, int y, int blocks) {
+    constexpr int kSide = 8;
+    Random random(static_cast<std::uint64_t>(x / kSide), static_cast<std::uint64_t>(y / kSide));
+    return blocks * random.uniform() < 1.0;
+}
+
 const gl::Texture& ReferenceSolver::solve(const SolveInput& input, gl::StageTimer& timer) {
     const auto scope = timer.measure("splatting 0");
     mStatistics = {};
-    const std::vector<ExitPoint> exitPoints = readExitPoints(input.view);
+    std::vector<ExitPoint> exitPoints = readExitPoints(input.view);
+    const int stride = input.view.paddedSize().x;
+    for (std::size_t i = 0; i < exitPoints.size(); ++i) {
+        const int pixel = static_cast<int>(i);
+        if (!isReferencePixel(pixel % stride, pixel / stride, mBlocks)) {
+            exitPoints[i].material = -1;
+        }
+    }
     const std::vector<glm::vec3> exitance = gather(input, exitPoints, mStatistics);
     std::vector<float> texels(exitance.size() * 4, 0.0f);
     for (std::size_t i = 0; i < exitance.size(); ++i) {
@@ -80,11 +94,14 @@ const gl::Texture& ReferenceSolver::solve(const SolveInput& input, gl::StageTime
 void ReferenceSolver::report(FrameStats& stats) {
     stats.samples = mStatistics.samples;
     stats.flux = mStatistics.flux;
+    stats.reference = mStatistics.reference;
 }
 
 ImageReferenceSolver::ImageReferenceSolver(const gl::ShaderLibrary& shaders, int materialCount,
-                                           int irradianceSize, bool pointSamples)
-    : mIrradiance(shaders, materialCount, irradianceSize, 1), mPointSamples(pointSamples) {}
+                                           int irradianceSize, bool pointSamples, int blocks)
+    : ReferenceSolver(blocks),
+      mIrradiance(shaders, materialCount, irradianceSize, 1),
+      mPointSamples(pointSamples) {}
 
 std::vector<glm::vec3> ImageReferenceSolver::gather(const SolveInput& input,
                                                     std::span<const ExitPoint> exitPoints,
@@ -111,7 +128,35 @@ std::vector<glm::vec3> SurfaceReferenceSolver::gather(const SolveInput& input,
                                                       FrameStats& statistics) {
     SurfaceReferenceResult result = mReference.solve(exitPoints, input.lights);
     statistics.samples.pairs = result.pairs;
+    statistics.reference.relativeError = result.relativeError;
     return std::move(result.exitance);
+}
+
+std::vector<glm::vec3> PathTracedSolver::gather(const SolveInput& input,
+                                                std::span<const ExitPoint> exitPoints,
+                                                FrameStats& statistics) {
+    const glm::ivec2 size = input.view.size();
+    const PathTracedResult result =
+        mPathTraced.solve(input.camera, size, input.lights, input.interrupt);
+    const auto sum = [](const glm::dvec3& v) { return v.x + v.y + v.z; };
+    statistics.reference = {
+        result.relativeError, result.paths,
+        sum(result.flux.entered) > 0.0 ? sum(result.flux.lost) / sum(result.flux.entered) : 0.0};
+    for (int c = 0; c < 3; ++c) {
+        statistics.flux.lit[static_cast<std::size_t>(c)] = result.flux.entered[c];
+    }
+    statistics.flux.selected = statistics.flux.lit;
+    // Buffers of a view are padded at the right and at the top.
+    std::vector<glm::vec3> exitance(exitPoints.size(), glm::vec3(0.0f));
+    const auto stride = static_cast<std::size_t>(input.view.paddedSize().x);
+    const auto width = static_cast<std::size_t>(size.x);
+    for (std::size_t i = 0; i < result.exitance.size(); ++i) {
+        const std::size_t target = i / width * stride + i % width;
+        if (exitPoints[target].material >= 0) {
+            exitance[target] = result.exitance[i];
+        }
+    }
+    return exitance;
 }
 
 } // namespace celadon

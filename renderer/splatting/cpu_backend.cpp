@@ -69,6 +69,7 @@ void CpuBackend::buildTree(const LightView& lightView, const SolveInput& input) 
     tree.alpha = static_cast<float>(mSettings.alpha);
     tree.discontinuityMm =
         static_cast<float>(mSettings.discontinuity * input.world.scatteringSphere.radius);
+    tree.orientation = mSettings.orientation;
     tree.texelScale = lightView.block.cone.z;
     tree.texelOffset = lightView.block.cone.w;
     tree.sampleAngle = static_cast<float>(mSettings.sampleAngle);

@@ -30,6 +30,7 @@ struct SplattingSettings {
     /// Rbar over log2 T as MaterialTables has it, for all materials; empty: computed from each.
     std::vector<float> rangeTable{};
     double discontinuity = 0.03; ///< z_0 in bounding sphere radii, eq. 10
+    bool orientation = true;     ///< off: eq. 11 without |n . l|, to see what it is for
     double energy = 0.99;        ///< R_cut holds this fraction; 1: R_cut = r_s
     bool adaptive = true;        ///< off: every lit level-0 texel is a sample
     bool multiresolution = true; ///< off: every splat at full resolution

@@ -41,8 +41,8 @@ SplattingSolver::SplattingSolver(const gl::ShaderLibrary& shaders,
 void SplattingSolver::writeSolveBlock(const SolveInput& input) {
     const double radius = input.world.scatteringSphere.radius;
     blocks::SolveBlock block;
-    block.selection =
-        glm::vec4(mSettings.alpha, mSettings.discontinuity * radius, 2.0 * radius, 0.0);
+    block.selection = glm::vec4(mSettings.alpha, mSettings.discontinuity * radius, 2.0 * radius,
+                                mSettings.orientation ? 1.0 : 0.0);
     const gather::Knots& knots = input.materials.commonKnots();
     block.node = glm::vec4(knots.rangeMm, float(knots.segments), float(mSettings.sampleAngle),
                            float(mSettings.fineSpread));

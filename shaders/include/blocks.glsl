@@ -30,7 +30,7 @@ struct MaterialEntry {
 
 // Settings of one solve (DESIGN 3).
 struct SolveBlock {
-    vec4 selection; // alpha, z_0 [mm], R_w [mm], lambda_z / R_w
+    vec4 selection; // alpha, z_0 [mm], R_w [mm], 1: eq. 11 has |n . l|
     vec4 node;      // node profiles: r_s [mm], segments n; theta_s, beta (hierarchical)
     vec4 rings;     // levels of the splatting buffer, levels of the irradiance buffer, theta_p, b (hierarchical)
     vec4 energy;    // 1: give back what the cut leaves out; 1: adaptive; 1: multiresolution; R_cut is r_s

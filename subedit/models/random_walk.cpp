@@ -2,9 +2,9 @@
 
 #include "subedit/assert.h"
 #include "subedit/models/half_space.h"
+#include "subedit/models/walk_steps.h"
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -42,53 +42,10 @@ public:
     }
     /// In [0, 1).
     double uniform() { return static_cast<double>(mGenerator() >> 11) * 0x1p-53; }
-    double freePath() { return -std::log(1.0 - uniform()); }
-
-    /// A point within the unit circle; @return its squared distance from the center, in (0, 1)
-    double pointInDisk(double& x, double& y) {
-        double squared = 0.0;
-        do {
-            x = 2.0 * uniform() - 1.0;
-            y = 2.0 * uniform() - 1.0;
-            squared = x * x + y * y;
-        } while (squared >= 1.0 || squared == 0.0);
-        return squared;
-    }
 
 private:
     std::mt19937_64 mGenerator;
 };
-
-glm::dvec3 isotropicDirection(Random& random) {
-    double x = 0.0;
-    double y = 0.0;
-    const double squared = random.pointInDisk(x, y); // Marsaglia 1972
-    const double factor = 2.0 * std::sqrt(1.0 - squared);
-    return {x * factor, y * factor, 1.0 - 2.0 * squared};
-}
-
-/// Direction at an angle of the given cosine to `axis`, evenly around it.
-glm::dvec3 directionAround(const glm::dvec3& axis, double cosine, Random& random) {
-    double x = 0.0;
-    double y = 0.0;
-    const double squared = random.pointInDisk(x, y);
-    const double scale = std::sqrt(std::max(1.0 - cosine * cosine, 0.0) / squared);
-    const glm::dvec3 helper =
-        std::abs(axis.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0);
-    const glm::dvec3 tangent = glm::normalize(glm::cross(helper, axis));
-    const glm::dvec3 bitangent = glm::cross(axis, tangent);
-    return glm::normalize(cosine * axis + scale * (x * tangent + y * bitangent));
-}
-
-/// Henyey, Greenstein 1941, by the inverse of its distribution function.
-glm::dvec3 scatter(const glm::dvec3& direction, double g, Random& random) {
-    if (std::abs(g) < 1e-4) {
-        return isotropicDirection(random);
-    }
-    const double inner = (1.0 - g * g) / (1.0 - g + 2.0 * g * random.uniform());
-    const double cosine = (1.0 + g * g - inner * inner) / (2.0 * g);
-    return directionAround(direction, std::clamp(cosine, -1.0, 1.0), random);
-}
 
 /// What does not change during a simulation.
 struct Setup {
@@ -153,13 +110,13 @@ void walk(const Setup& setup, Random& random, Tally& tally) {
     glm::dvec3 position(0.0); // z is the depth
     glm::dvec3 direction(0.0, 0.0, 1.0);
     if (setup.entry == LightEntry::Diffuse) {
-        const double squared = random.pointInDisk(direction.x, direction.y);
+        const double squared = pointInDisk(random, direction.x, direction.y);
         direction.z = std::sqrt(1.0 - squared);
     }
     glm::dvec3 weight(1.0);
     std::int64_t nextDoubling = kFirstLongWalk;
     for (std::int64_t step = 1; step < kLongestWalk; ++step) {
-        double length = random.freePath();
+        double length = freePath(random);
         while (direction.z < 0.0 && -direction.z * length > position.z) {
             const double cosine = -direction.z;
             const double toSurface = position.z / cosine;

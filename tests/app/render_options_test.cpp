@@ -31,6 +31,21 @@ TEST(RenderOptions, ATableStandsForItsOwnEpsilon) {
     EXPECT_THROW(parse({"--table", "t.exr", "--epsilon", "0.01"}), UsageError);
 }
 
+TEST(RenderOptions, TakeAMediumForAMaterial) {
+    EXPECT_FALSE(mediumOf(parse({})));
+    EXPECT_DOUBLE_EQ(mediumOf(parse({"--preset", "marble"}))->eta, 1.5);
+    const RenderOptions o =
+        parse({"--solver", "path-traced", "--absorption", "0.1,0.2,0.3", "--reduced-scattering",
+               "1,2,3", "--g", "0.5", "--eta", "1.4", "--paths", "1000", "--noise", "0.02"});
+    const subedit::Medium medium = mediumOf(o).value();
+    EXPECT_EQ(medium.absorption, glm::dvec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(medium.reducedScattering, glm::dvec3(1, 2, 3));
+    EXPECT_DOUBLE_EQ(medium.anisotropy, 0.5);
+    EXPECT_DOUBLE_EQ(medium.eta, 1.4);
+    EXPECT_EQ(o.paths, 1000);
+    EXPECT_DOUBLE_EQ(o.noise, 0.02);
+}
+
 TEST(RenderOptions, HaveTheDocumentedDefaults) {
     const RenderOptions o = parse({});
     EXPECT_EQ(o.model, "m.obj");
@@ -206,8 +221,12 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{{"--stats", "a.exr"}, "--stats"}, Refusal{{"--energy", "1.01"}, "--energy"},
         Refusal{{"--samples", "0"}, "--samples"}, Refusal{{"--levels", "0"}, "--levels"},
         Refusal{{"--background", "white"}, "--background"}, Refusal{{"--context", "vulkan"}, "egl"},
-        Refusal{{"--solver", "x"}, "path-traced"}, Refusal{{"--size", "16384x16384"}, "--size"},
-        Refusal{{"--alpha", "nan"}, "--alpha"}));
+        Refusal{{"--solver", "x"}, "path-traced"}, Refusal{{"--solver", "path-traced"}, "--preset"},
+        Refusal{{"--solver", "path-traced", "--material", "marble"}, "--preset"},
+        Refusal{{"--preset", "marble", "--material", "marble"}, "--material"},
+        Refusal{{"--absorption", "1,1,1"}, "--reduced-scattering"},
+        Refusal{{"--preset", "granite"}, "marble"}, Refusal{{"--noise", "-1"}, "--noise"},
+        Refusal{{"--size", "16384x16384"}, "--size"}, Refusal{{"--alpha", "nan"}, "--alpha"}));
 
 } // namespace
 } // namespace celadon::app

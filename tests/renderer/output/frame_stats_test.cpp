@@ -78,6 +78,16 @@ TEST(FrameStats, NamesBothLevelCountsWhereTheyDiffer) {
     EXPECT_EQ(Json::parse(toJson(stats))["levels"], Json::array({6, 5}));
 }
 
+TEST(FrameStats, HasTheErrorOfAReferenceWhereOneWasMeasured) {
+    RenderStats stats = example();
+    EXPECT_FALSE(Json::parse(toJson(stats))["frames"][0].contains("reference"));
+    stats.frames[0].reference = {0.02, 1000, 0.5};
+    const Json json = Json::parse(toJson(stats))["frames"][0]["reference"];
+    EXPECT_EQ(json["relativeError"], 0.02);
+    EXPECT_EQ(json["paths"], 1000);
+    EXPECT_EQ(json["lostFlux"], 0.5);
+}
+
 TEST(FrameStats, TurnsInfinitiesAndNaNIntoNull) {
     RenderStats stats = example();
     stats.frames[0].milliseconds.total = std::numeric_limits<double>::infinity();
