@@ -69,6 +69,31 @@ struct Result {
     double value;
 };
 
+/// A relative error against nothing is no number. The PSNR of equal pictures is infinite, and means
+/// it.
+bool isUndefined(const Result& result) {
+    return !std::isfinite(result.value) && result.metric != Metric::Psnr;
+}
+
+/// Undefined metrics are refused where they were asked for, and said where they were not.
+void explainUndefined(const std::vector<Result>& results, const CompareOptions& options) {
+    for (const Result& result : results) {
+        if (!isUndefined(result)) {
+            continue;
+        }
+        const auto isMetric = [&result](const auto& asked) { return asked == result.metric; };
+        if (std::ranges::any_of(options.metrics, isMetric) ||
+            std::ranges::any_of(options.limits, isMetric, &Limit::metric)) {
+            throw InputError(fmt::format("'{}' against '{}'", options.a, options.b),
+                             fmt::format("{} is undefined: the reference is all zero",
+                                         metricName(result.metric)),
+                             "choose another metric, such as rmse");
+        }
+        log::warning("{} is undefined, since '{}' is all zero", metricName(result.metric),
+                     options.b);
+    }
+}
+
 std::vector<Result> computeResults(Comparison& comparison, const CompareOptions& options) {
     std::vector<Metric> wanted;
     if (options.all) {
@@ -101,7 +126,7 @@ std::string toJsonText(const CompareOptions& options, const Comparison& comparis
     json["layer"] = options.settings.layer.empty() ? "color" : options.settings.layer;
     json["values"] = comparison.displayEncoded() ? "display" : "linear";
     for (const Result& result : results) {
-        // JSON has no infinity: the PSNR of equal pictures is null.
+        // JSON has no infinity: the PSNR of equal pictures is null, and so is what is undefined.
         json[metricName(result.metric)] = std::isfinite(result.value)
                                               ? nlohmann::ordered_json(result.value)
                                               : nlohmann::ordered_json(nullptr);
@@ -154,6 +179,7 @@ void compare(const CompareOptions& options) {
         log::warning("{}", warning);
     }
     const std::vector<Result> results = computeResults(comparison, options);
+    explainUndefined(results, options);
     if (options.heatMap) {
         writeDisplayImage(*options.heatMap, comparison.heatMap());
     }

@@ -7,12 +7,10 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <glm/vec3.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 
 namespace celadon::app {
 namespace fs = std::filesystem;
@@ -94,18 +92,6 @@ FloatImage mapped(FloatImage image, float (*function)(float)) {
     return image;
 }
 
-/// Linear light of the display, in [0, 1].
-FloatImage show(FloatImage color, const ComparisonSettings& settings) {
-    const float gain = static_cast<float>(std::exp2(settings.exposureEv));
-    for (std::size_t i = 0; i + 3 <= color.pixels.size(); i += 3) {
-        float* pixel = color.pixels.data() + i;
-        const glm::vec3 light =
-            applyToneMap(settings.toneMap, glm::vec3(pixel[0], pixel[1], pixel[2]) * gain);
-        std::copy_n(&light.x, 3, pixel);
-    }
-    return color;
-}
-
 std::optional<FloatImage> alphaOf(const fs::path& file, const FloatImage& image) {
     FloatImage alpha = extractLayer(image, "A");
     if (alpha.channels.empty()) {
@@ -168,7 +154,9 @@ Comparison::Comparison(const fs::path& fileA, const fs::path& fileB,
         Side side;
         side.values = layerOf(file, read.image, settings.layer);
         side.linear = asColor(side.values);
-        side.shown = read.displayEncoded ? side.linear : show(side.linear, settings);
+        side.shown = read.displayEncoded ? side.linear
+                                         : toDisplayLight(side.linear, settings.toneMap,
+                                                          static_cast<float>(settings.exposureEv));
         if (mDisplayEncoded) {
             side.values = mapped(std::move(side.values), encodeSrgb);
         }
@@ -216,7 +204,7 @@ const FloatImage& Comparison::flip() {
 
 double Comparison::value(Metric metric) {
     if (!has(metric)) {
-        throw UsageError(metricName(metric),
+        throw InputError(metricName(metric),
                          metric == Metric::AlphaRmse
                              ? std::string("the pictures have no alpha channel")
                              : fmt::format("layer '{}' is no color", mLayer),

@@ -65,7 +65,7 @@ public:
     /// ssim, flip and flipHdr need color, alphaRmse an alpha in one of the files.
     [[nodiscard]] bool has(Metric metric) const;
 
-    /// May be infinite. @throws UsageError when !has(metric)
+    /// May be infinite. @throws InputError when !has(metric)
     [[nodiscard]] double value(Metric metric);
 
     /// flip where the layer is a color, else |a - b| scaled to its largest: display-encoded R,G,B.

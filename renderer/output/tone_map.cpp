@@ -112,6 +112,17 @@ glm::vec3 applyToneMap(ToneMap toneMap, glm::vec3 color) {
     return unit(color);
 }
 
+FloatImage toDisplayLight(FloatImage color, ToneMap toneMap, float exposureEv) {
+    const float gain = std::exp2(exposureEv);
+    for (std::size_t i = 0; i + 3 <= color.pixels.size(); i += 3) {
+        float* pixel = color.pixels.data() + i;
+        const glm::vec3 light =
+            applyToneMap(toneMap, glm::vec3(pixel[0], pixel[1], pixel[2]) * gain);
+        std::copy_n(&light.x, 3, pixel);
+    }
+    return color;
+}
+
 FloatImage toDisplay(const FloatImage& linear, const DisplaySettings& settings) {
     const ColorChannels in = colorChannels(linear);
     const bool keepsAlpha = in.a >= 0 && !settings.background;

@@ -31,6 +31,10 @@ enum class ToneMap {
 /// @return linear, in [0, 1]
 [[nodiscard]] glm::vec3 applyToneMap(ToneMap toneMap, glm::vec3 color);
 
+/// What a display shows of a picture before black, as linear light in [0, 1]: what ssim and flip
+/// look at. @param color linear, channels R,G,B only, premultiplied
+[[nodiscard]] FloatImage toDisplayLight(FloatImage color, ToneMap toneMap, float exposureEv = 0.0f);
+
 struct DisplaySettings {
     float exposureEv = 0.0f; ///< radiance is multiplied by 2^EV
     ToneMap toneMap = ToneMap::Neutral;

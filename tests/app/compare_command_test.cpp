@@ -112,7 +112,7 @@ TEST_F(CompareCommand, ComparesALayer) {
     const ProgramResult radius = runInProcess({"compare", a, b, "--json", "--layer", "radius"});
     ASSERT_EQ(radius.exitCode, 0) << radius.err;
     EXPECT_FALSE(Json::parse(radius.out).contains("flip"));
-    EXPECT_EQ(runInProcess({"compare", a, b, "--layer", "radius", "--metric", "flip"}).exitCode, 2);
+    EXPECT_EQ(runInProcess({"compare", a, b, "--layer", "radius", "--metric", "flip"}).exitCode, 3);
     const ProgramResult missing = runInProcess({"compare", a, b, "--layer", "normal"});
     EXPECT_EQ(missing.exitCode, 3);
     EXPECT_THAT(missing.err, HasSubstr("exitance.R"));
@@ -160,6 +160,25 @@ TEST_F(CompareCommand, RefusesPicturesThatDoNotMatch) {
     const std::string bytes = readText(folder / "whole.png");
     writeText(folder / "cut.png", std::string_view(bytes).substr(0, bytes.size() / 2));
     refused(file("cut.png"), "cut.png");
+}
+
+TEST_F(CompareCommand, SaysWhichMetricIsUndefined) {
+    const std::string a = gray("a.exr", 0.5f);
+    const std::string black = gray("b.exr", 0.0f);
+    const ProgramResult all = runInProcess({"compare", a, black, "--json"});
+    EXPECT_EQ(all.exitCode, 0) << all.err;
+    EXPECT_THAT(all.err, HasSubstr("relativeRmse is undefined"));
+    EXPECT_TRUE(Json::parse(all.out).at("relativeRmse").is_null());
+    for (const char* option : {"--metric", "--fail-above"}) {
+        const ProgramResult asked = runInProcess(
+            {"compare", a, black, option,
+             std::string(option) == "--metric" ? "relative-rmse" : "relative-rmse=0.1"});
+        EXPECT_EQ(asked.exitCode, 3) << option;
+        EXPECT_THAT(asked.err, HasSubstr("all zero"));
+        EXPECT_EQ(asked.errorLines(), 1) << asked.err;
+        EXPECT_EQ(asked.out, "");
+    }
+    EXPECT_EQ(runInProcess({"compare", black, black, "--metric", "relative-rmse"}).exitCode, 0);
 }
 
 TEST_F(CompareCommand, WarnsWhereOneHasNoAlpha) {
