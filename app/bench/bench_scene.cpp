@@ -5,6 +5,8 @@
 #include "subedit/fit/profile_fit.h"
 #include "subedit/models/normalized_diffusion.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -18,7 +20,6 @@ constexpr double kDiameterMm = 100.0;
 constexpr int kSegments = 32;
 constexpr int kRanges = 64; ///< different profiles of a map
 constexpr std::array<double, 3> kChannelRange{1.0, 0.8, 0.65};
-constexpr std::array<double, 3> kAlbedo{0.85, 0.75, 0.6};
 
 /// A few waves that do not repeat over the map, in [0, 1].
 double smoothNoise(double u, double v) {
@@ -27,6 +28,16 @@ double smoothNoise(double u, double v) {
                        std::sin(tau * (4.0 * v + 1.3 * std::sin(tau * 3.0 * u + 1.0))) +
                        0.5 * std::sin(tau * (9.0 * u - 7.0 * v));
     return std::clamp(0.5 + sum / 5.0, 0.0, 1.0);
+}
+
+/// Empty where the scene has none, or it is not there.
+std::filesystem::path modelFile(const BenchScene& scene) {
+    const char* const folder = std::getenv("CELADON_MODELS");
+    if (folder == nullptr || scene.model.empty()) {
+        return {};
+    }
+    std::filesystem::path file = std::filesystem::path(folder) / scene.model;
+    return std::filesystem::exists(file) ? file : std::filesystem::path();
 }
 
 } // namespace
@@ -38,7 +49,8 @@ std::vector<BenchScene> benchScenes(const std::string& suite) {
                                     {110, 110},
                                     {0.12, 0.30},
                                     false,
-                                    {2.8, 10, 14, 31}},
+                                    {2.8, 10, 14, 31},
+                                    "twist:y:40"},
                                    {"buddha",
                                     "mesh/happy_buddha_100k.obj",
                                     "shell",
@@ -84,18 +96,22 @@ std::vector<BenchScene> benchScenes(const std::string& suite) {
     throw UsageError("--suite " + suite, "no such suite", "take quick or table1");
 }
 
+bool isModelMissing(const BenchScene& scene) {
+    return !scene.model.empty() && modelFile(scene).empty();
+}
+
+std::string modelFolderMessage() {
+    const char* const folder = std::getenv("CELADON_MODELS");
+    return folder == nullptr
+               ? "since CELADON_MODELS is not set: put it into a folder and name that"
+               : fmt::format("below '{}', which CELADON_MODELS names: put it there", folder);
+}
+
 BenchWorld loadBenchWorld(const BenchScene& scene) {
     BenchWorld loaded;
-    const char* const folder = std::getenv("CELADON_MODELS");
-    loaded.model = "builtin:" + scene.standIn;
-    loaded.isStandIn = !scene.model.empty();
-    if (folder != nullptr && !scene.model.empty()) {
-        const std::filesystem::path file = std::filesystem::path(folder) / scene.model;
-        if (std::filesystem::exists(file)) {
-            loaded.model = file.string();
-            loaded.isStandIn = false;
-        }
-    }
+    loaded.isStandIn = isModelMissing(scene);
+    const std::filesystem::path file = modelFile(scene);
+    loaded.model = file.empty() ? "builtin:" + scene.standIn : file.string();
     Scene model = readModel(loaded.model);
     const std::vector<MaterialPointer> named(model.materials.size());
     WorldScale scale;
@@ -115,6 +131,7 @@ MaterialPointer benchMaterial(const BenchScene& scene, double boundingRadiusMm) 
     map->width = scene.mapSize.x;
     map->height = scene.mapSize.y;
     map->segments = kSegments;
+    map->eta = static_cast<float>(kBenchEta);
     const auto longest =
         subedit::normalizedDiffusionCurve(1.0, scene.range.y * boundingRadiusMm * perShape);
     map->maxRadiusMm = static_cast<float>(subedit::radiusHolding(longest, 0.999));
@@ -126,7 +143,8 @@ MaterialPointer benchMaterial(const BenchScene& scene, double boundingRadiusMm) 
         for (std::size_t c = 0; c < 3; ++c) {
             std::vector<double> knots(static_cast<std::size_t>(map->knots()));
             subedit::fitChannel(
-                subedit::normalizedDiffusionCurve(kAlbedo[c], R_P * kChannelRange[c] * perShape),
+                subedit::normalizedDiffusionCurve(kBenchAlbedo[static_cast<int>(c)],
+                                                  R_P * kChannelRange[c] * perShape),
                 kSegments, static_cast<double>(map->maxRadiusMm), knots.data());
             for (std::size_t k = 0; k < knots.size(); ++k) {
                 profiles[i * values + k * 3 + c] = static_cast<float>(knots[k]);

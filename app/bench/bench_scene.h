@@ -13,6 +13,10 @@
 /// builtins.
 namespace celadon::app {
 
+/// Surface albedo and index of refraction of the scenes' materials.
+inline constexpr glm::dvec3 kBenchAlbedo{0.85, 0.75, 0.6};
+inline constexpr double kBenchEta = 1.3;
+
 struct BenchScene {
     std::string name;  ///< the paper's object
     std::string model; ///< below CELADON_MODELS
@@ -21,10 +25,17 @@ struct BenchScene {
     glm::dvec2 range;               ///< R_P, least and greatest, in bounding sphere radii
     bool hasCells;                  ///< a chessboard; else smooth noise
     std::array<double, 4> paperFps; ///< none, multires, adaptive, full; 0: not in the paper
+    std::string deformation{};      ///< as for --deform; empty: at rest
 };
 
 /// @param suite "table1" or "quick" @throws UsageError
 [[nodiscard]] std::vector<BenchScene> benchScenes(const std::string& suite);
+
+/// Whether its model is not where CELADON_MODELS says, so that a builtin stands in.
+[[nodiscard]] bool isModelMissing(const BenchScene& scene);
+/// Where models are looked for, as words of a sentence: "in '/models', where CELADON_MODELS
+/// points", or what to set.
+[[nodiscard]] std::string modelFolderMessage();
 
 struct BenchWorld {
     World world;

@@ -1,7 +1,8 @@
 // What `celadon bench` measures with: materials of the ranges that it claims, and reports without
 // NaN.
-#include "app/bench/bench_report.h"
 #include "app/bench/bench_scene.h"
+#include "app/bench/scaling_suite.h"
+#include "app/bench/table_report.h"
 #include "subedit/effective_radius.h"
 #include "subedit/errors.h"
 #include "subedit/radius_map.h"
@@ -11,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace celadon::app {
@@ -51,27 +53,75 @@ TEST(Bench, MapsSpanTheirRanges) {
     }
 }
 
-TEST(Bench, ReportsWhatWasNotMeasuredAsNull) {
-    BenchReport report;
+/// A scene with two methods by hand.
+SceneResult exampleScene() {
     SceneResult scene;
     scene.scene = benchScenes("table1")[2];
     MethodResult none;
     none.method = "none";
-    none.time.medianMs = 100.0;
+    none.time.medianMs = none.time.leastMs = none.time.greatestMs = 100.0;
     MethodResult ours;
     ours.method = "hierarchical";
     ours.time.medianMs = 4.0;
     ours.image = {0.008, 0.999};
     scene.methods = {none, ours};
-    report.scenes = {scene};
-    const nlohmann::json json = nlohmann::json::parse(toJson(report));
+    return scene;
+}
+
+TEST(Bench, ReportsWhatWasNotMeasuredAsNull) {
+    TableOptions options;
+    options.backends = {SplatBackendKind::Cpu};
+    const BenchDocument document = tableDocument({}, options, {exampleScene()});
+    const nlohmann::json json = nlohmann::json::parse(document.json.dump());
     const auto& methods = json["scenes"][0]["methods"];
     EXPECT_DOUBLE_EQ(methods[1]["speedUp"].get<double>(), 25.0);
     EXPECT_DOUBLE_EQ(methods[1]["framesPerSecond"].get<double>(), 250.0);
     EXPECT_TRUE(methods[0]["imageReference"]["relativeRmse"].is_null());
-    EXPECT_TRUE(methods[1]["surfaceReference"]["meanRatio"].is_null());
-    EXPECT_NEAR(json["scenes"][0]["paperSpeedUp"].get<double>(), 66.0 / 5.6, 1e-9);
-    EXPECT_THAT(toMarkdown(report), testing::HasSubstr("| bunny | 0 | hierarchical | 4 | 25.0 |"));
+    EXPECT_TRUE(methods[1]["splattingError"]["meanRatio"].is_null());
+    EXPECT_TRUE(json["scenes"][0]["modelError"]["relativeRmse"].is_null());
+    EXPECT_NEAR(methods[1]["paperSpeedUp"].get<double>(), 66.0 / 5.6, 1e-9);
+    EXPECT_THAT(document.markdown, testing::HasSubstr("| bunny | 0 | hierarchical | cpu | 4 "));
+    EXPECT_EQ(document.charts.size(), 2u);
+    for (const auto& [name, chart] : document.charts) {
+        EXPECT_FALSE(chart.shapes.empty()) << name;
+    }
+}
+
+TEST(Bench, SpeedUpsAreOverNoneByTheSameBackend) {
+    SceneResult scene = exampleScene();
+    scene.methods[1].backend = SplatBackendKind::Raster;
+    EXPECT_TRUE(std::isnan(speedUp(scene, scene.methods[1])));
+    scene.methods[0].backend = SplatBackendKind::Raster;
+    EXPECT_DOUBLE_EQ(speedUp(scene, scene.methods[1]), 25.0);
+}
+
+TEST(Bench, GrowthExponentIsThePowerOfAPowerLaw) {
+    EXPECT_NEAR(growthExponent({{1, 3}, {2, 3 * std::sqrt(2.0)}, {4, 6}}), 0.5, 1e-12);
+    EXPECT_NEAR(growthExponent({{10, 7}, {20, 7}}), 0.0, 1e-12);
+    EXPECT_TRUE(std::isnan(growthExponent({{1, 3}})));
+    EXPECT_TRUE(std::isnan(growthExponent({{1, 3}, {2, 0}})));
+}
+
+TEST(Bench, SaysWhereAModelIsMissing) {
+    for (BenchScene scene : benchScenes("table1")) {
+        scene.model = "mesh/nowhere.ply";
+        EXPECT_TRUE(isModelMissing(scene));
+        scene.model.clear();
+        EXPECT_FALSE(isModelMissing(scene));
+    }
+    EXPECT_THAT(modelFolderMessage(), testing::HasSubstr("CELADON_MODELS"));
+}
+
+TEST(Bench, ALightTurnedAllTheWayIsTheSame) {
+    BenchView view;
+    view.lights = {Light{}};
+    view.lights[0].direction = glm::normalize(glm::dvec3(-0.4, -0.5, -0.77));
+    const glm::dvec3 d = view.lights[0].direction;
+    EXPECT_LT(glm::distance(withTurnedLight(view, 360).lights[0].direction, d), 1e-12);
+    const glm::dvec3 turned = withTurnedLight(view, 0.3).lights[0].direction;
+    EXPECT_DOUBLE_EQ(turned.y, d.y);
+    EXPECT_NEAR(glm::length(turned), 1.0, 1e-12);
+    EXPECT_NEAR(glm::distance(turned, d), 0.3 * 3.14159265 / 180 * std::hypot(d.x, d.z), 1e-6);
 }
 
 } // namespace
