@@ -12,6 +12,9 @@
 /// What was done to materials since they were opened, on disk as it happens: after a crash a replay
 /// brings it back, but for a stroke that was under way. One file a session, gone when the session
 /// ends well.
+///
+/// A replay starts from the material as it was opened. When the session saves over that file, it is
+/// kept beside the journal, so that steps, and undoing them, go on meaning the same after a save.
 namespace celadon::ui {
 
 class Journal {
@@ -27,10 +30,16 @@ public:
     /// Keeps it if it changes a material. Failures to write are said once.
     /// @return what went wrong, the first time
     [[nodiscard]] std::optional<std::string> add(const Command& command);
+    /// To be called before a file is saved over: if it is the material that was opened, it is kept.
+    /// @return what went wrong
+    [[nodiscard]] std::optional<std::string> keep(const std::filesystem::path& file);
     /// Nothing is left to recover.
     void finish();
 
 private:
+    void write(const Command& command);
+    void writeHeader();
+
     std::filesystem::path mFolder;
     std::filesystem::path mFile;
     std::ofstream mStream;
@@ -47,6 +56,8 @@ struct Recovery {
 
 /// The latest journal of a process that is no more; broken ones are passed over.
 [[nodiscard]] std::optional<Recovery> findRecovery(const std::filesystem::path& folder);
+/// Removes a journal and what was kept beside it.
+void discard(const Recovery& recovery);
 /// Whether a command is kept in a journal.
 [[nodiscard]] bool changesMaterial(const Command& command);
 
