@@ -12,30 +12,40 @@ namespace celadon::subedit {
 
 namespace {
 
-/// ln of the energy of the first segment in units of h^2: e^l0 M_1(l1 - l0) of log_linear.h.
-float logFirstEnergy(float l0, float l1) {
+/// The first segment's energy E = e^l0 M_1(l1 - l0) in units of h^2 (log_linear.h).
+struct FirstSegment {
+    float logEnergy;
+    float slope; ///< d ln E / d l0 = 1 - M_2 / M_1, M_2 the moment of s^2
+};
+
+FirstSegment firstSegment(float l0, float l1) {
     const float z = l1 - l0;
-    float moment = 0.0f;
+    float m1 = 0.0f;
+    float m2 = 0.0f;
     if (std::abs(z) < 0.5f) {
-        moment = 1.0f / 2 +
-                 z * (1.0f / 3 + z * (1.0f / 8 + z * (1.0f / 30 + z * (1.0f / 144 + z / 840))));
+        m1 = 1.0f / 2 +
+             z * (1.0f / 3 + z * (1.0f / 8 + z * (1.0f / 30 + z * (1.0f / 144 + z / 840))));
+        m2 = 1.0f / 3 + z * (1.0f / 4 + z * (1.0f / 10 + z * (1.0f / 36 + z / 168)));
     } else {
         const float e = fastExp(z);
-        moment = (e - (e - 1.0f) / z) / z;
+        const float inverse = 1.0f / z;
+        m1 = (e - (e - 1.0f) * inverse) * inverse;
+        m2 = (e - 2.0f * m1) * inverse;
     }
-    return l0 + fastLog(moment);
+    return {l0 + fastLog(m1), std::clamp(1.0f - m2 / m1, 0.2f, 1.0f)};
 }
 
-/// The l0 of a given logFirstEnergy(), which grows with it.
-float solveFirstKnot(float l0, float l1, float logEnergy) {
-    float value = logFirstEnergy(l0, l1) - logEnergy;
-    float slope = 0.7f;
-    for (int i = 0; i < 8 && std::abs(value) > 1e-6f; ++i) {
-        const float step = std::clamp(-value / slope, -4.0f, 4.0f);
-        const float next = logFirstEnergy(l0 + step, l1) - logEnergy;
-        slope = std::clamp((next - value) / step, 0.2f, 1.0f); // secant; bounds of the true slope
+/// The l0 of a given ln E, which grows with it, by Newton; to 1e-5, where scaling the whole profile
+/// by the rest changes nothing that can be seen.
+/// @param start firstSegment() of the l0 given
+float solveFirstKnot(float l0, float l1, FirstSegment start, float logEnergy) {
+    for (int i = 0; i < 8; ++i) {
+        const float step = std::clamp((logEnergy - start.logEnergy) / start.slope, -4.0f, 4.0f);
         l0 += step;
-        value = next;
+        if (std::abs(step) < 3e-3f) { // and its square is the error that is left
+            break;
+        }
+        start = firstSegment(l0, l1);
     }
     return l0;
 }
@@ -48,16 +58,24 @@ constexpr float kDefaultLengths = 8.0f;
 void resampleChannel(const float* in, int inSegments, float inSpacingMm, float scale, float* out,
                      int outSegments, float outSpacingMm) {
     const float step = outSpacingMm / (scale * inSpacingMm);
-    const float shift = -2.0f * std::log(scale);
-    for (int k = 0; k <= outSegments; ++k) {
+    const float shift = -2.0f * fastLog(scale);
+    int k = 0;
+    for (; k <= outSegments; ++k) {
         const float position = static_cast<float>(k) * step;
-        // Beyond the last knot along its last segment, were it to go on; never upwards.
-        const int i = std::min(static_cast<int>(position), inSegments - 1);
-        const float slope = in[(i + 1) * 3] - in[i * 3];
-        const float t = position - static_cast<float>(i);
-        const float value = t <= 1.0f ? in[i * 3] + slope * t
-                                      : in[(i + 1) * 3] + std::min(slope, 0.0f) * (t - 1.0f);
+        const auto i = static_cast<int>(position);
+        if (i >= inSegments) {
+            break;
+        }
+        const float value =
+            in[i * 3] + (in[i * 3 + 3] - in[i * 3]) * (position - static_cast<float>(i));
         out[k * 3] = std::max(value + shift, kLogProfileFloor);
+    }
+    // Beyond the last knot along its last segment, were it to go on; never upwards.
+    const float end = in[inSegments * 3];
+    const float slope = std::min(end - in[inSegments * 3 - 3], 0.0f);
+    for (; k <= outSegments; ++k) {
+        const float beyond = static_cast<float>(k) * step - static_cast<float>(inSegments);
+        out[k * 3] = std::max(end + slope * beyond + shift, kLogProfileFloor);
     }
 }
 
@@ -146,7 +164,7 @@ void ProfileEditor::setAlbedo(int channel, float albedo) {
         mEnergy.compute(mValues.data());
         mAlbedo[channel] = mEnergy.albedo(channel, mLayout.spacingMm());
     }
-    const float shift = std::log(albedo / mAlbedo[channel]);
+    const float shift = fastLog(albedo / mAlbedo[channel]);
     for (int k = 0; k < knots; ++k) {
         values[k * 3] = std::max(values[k * 3] + shift, kLogProfileFloor);
     }
@@ -189,12 +207,13 @@ void ProfileEditor::fitFirstKnot(int channel, float albedo) {
     float& l0 = mValues[static_cast<std::size_t>(channel)];
     const float l1 = mValues[static_cast<std::size_t>(3 + channel)];
     const float h = mLayout.spacingMm();
-    const float first = fastExp(logFirstEnergy(l0, l1));
+    const FirstSegment segment = firstSegment(l0, l1);
+    const float first = fastExp(segment.logEnergy);
     const float rest = mEnergy.total(channel) - first;
     const float wanted = albedo / (2.0f * std::numbers::pi_v<float> * h * h) - rest;
     // A first segment of a tenth or ten times the energy is no longer the same profile.
     if (wanted > 0.1f * first && wanted < 10.0f * first) {
-        l0 = solveFirstKnot(l0, l1, fastLog(wanted));
+        l0 = solveFirstKnot(l0, l1, segment, fastLog(wanted));
     }
 }
 

@@ -21,6 +21,7 @@ namespace celadon::subedit {
 namespace {
 
 constexpr std::size_t kLargestFile = 64u << 20;
+constexpr double kLargestNumber = 1e17; ///< ln P of a stored profile ends at 40
 constexpr double kSmallestP = 1e-300;
 
 std::string_view trim(std::string_view text) {
@@ -114,13 +115,27 @@ private:
         const std::optional<double> value = toNumber(cells[column]);
         if (!value) {
             refuse(line, fmt::format("column {} holds '{}', which is no number", column + 1,
-                                     cells[column]));
+                                     printable(cells[column])));
         }
         if (!std::isfinite(*value) || *value < 0.0) {
             refuse(line, fmt::format("column {} holds {}, not a finite number >= 0", column + 1,
                                      cells[column]));
         }
+        if (*value > kLargestNumber) {
+            refuse(line, fmt::format("column {} holds {}: no radius in mm and no profile in 1/mm^2 "
+                                     "is above {:g}",
+                                     column + 1, cells[column], kLargestNumber));
+        }
         return *value;
+    }
+
+    /// What a terminal shows of any bytes, and not too much of it.
+    static std::string printable(std::string_view text) {
+        constexpr std::size_t kMost = 40;
+        std::string shown(text.substr(0, kMost));
+        std::ranges::replace_if(
+            shown, [](char c) { return c < ' ' || c > '~'; }, '?');
+        return text.size() > kMost ? shown + "..." : shown;
     }
 
     const std::string& mName;
