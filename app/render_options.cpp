@@ -73,10 +73,13 @@ void addPicture(CLI::App& app, RenderOptions& o) {
               {group, "neutral|aces|none", "Tone curve, not in EXR; default neutral"},
               takeChoice(o.toneMap, kToneMaps));
     addOption(app, "--background",
-              {group, "R,G,B|transparent", "Linear color behind the object; default transparent"},
+              {group, "R,G,B|transparent|environment",
+               "Behind the object: a linear color, nothing, or the map of --environment; default "
+               "transparent"},
               [&o](const Argument& a) {
                   o.background.reset();
-                  if (a.text != "transparent") {
+                  o.environmentBehind = a.text == "environment";
+                  if (a.text != "transparent" && !o.environmentBehind) {
                       o.background = glm::vec3(parseVector(a, {0.0, 1e6, false}));
                   }
               });
@@ -168,7 +171,9 @@ void addMethod(CLI::App& app, RenderOptions& o) {
                "Levels of both pyramids, or of irradiance and splatting buffer; default 6,5"},
               [&o](const Argument& a) { o.levels = parseLevels(a, kMaxLevels); });
     addOption(app, "--irradiance-size",
-              {group, "N", "Side of the irradiance buffer in texels; default 512"},
+              {group, "N",
+               "Side of the irradiance buffer in texels; default 512, 2 or 4 times that where "
+               "ranges are short for it"},
               takeInteger(o.irradianceSize, 16, kMaxIrradianceSize));
     addOption(app, "--alpha", {group, "A", "Samples per effective radius; default 15"},
               takeNumber(o.alpha, {0.0, 1e6, true}));
@@ -304,6 +309,8 @@ void validateRenderOptions(const RenderOptions& o) {
             "choose an output that ends in .exr");
     require(!o.stats || *o.stats != o.output, "--stats", "is the same file as the output",
             "choose another name");
+    require(!o.environmentBehind || o.environment, "--background environment",
+            "there is no environment", "name a map with --environment");
     require(!(o.table && o.epsilon), "--epsilon", "does not go with --table",
             "the table was made for its own");
     const bool hasMedium = mediumOf(o).has_value();

@@ -8,6 +8,7 @@
 #include "renderer/splatting/splatting_solver.h"
 
 #include <string>
+#include <utility>
 
 namespace celadon {
 
@@ -87,6 +88,9 @@ struct FrameRenderer::Passes {
           antialiasing(settings.coverageSamples > 1
                            ? std::make_unique<Antialiasing>(shaders, view, settings.coverageSamples)
                            : nullptr) {
+        settings.splatting.irradianceSize =
+            refinedIrradianceSize(settings.splatting, double(materials.shortRadiusMm()),
+                                  2.0 * world.scatteringSphere.radius);
         switch (settings.solver) {
         case SolverKind::Splatting:
             settings.splatting.backend = resolveBackend(settings.splatting.backend, glContext);
@@ -123,14 +127,19 @@ struct FrameRenderer::Passes {
     DirectLight directLight;
     ShadingPass shading;
     std::unique_ptr<Antialiasing> antialiasing; ///< null: pixel centers as they are
+    Environment environment;
+    std::vector<Light> aroundLights;                         ///< that stand for it
+    std::unique_ptr<const EnvironmentReflection> reflection; ///< of environment.map
     CameraView cameraView;
     const gl::Texture* exitance = nullptr;
     const gl::Texture* color = nullptr;
     std::vector<double> shadedKey; ///< what the direct light was shaded for
 };
 
-bool FrameRenderer::Passes::draw(const Camera& camera, std::span<const Light> lights,
+bool FrameRenderer::Passes::draw(const Camera& camera, std::span<const Light> ownLights,
                                  const std::atomic<bool>* interrupt) {
+    std::vector<Light> lights(ownLights.begin(), ownLights.end());
+    lights.insert(lights.end(), aroundLights.begin(), aroundLights.end());
     cameraView = makeCameraView(camera, settings.size.x, settings.size.y, world.sceneSphere);
     materials.bind();
     {
@@ -146,8 +155,9 @@ bool FrameRenderer::Passes::draw(const Camera& camera, std::span<const Light> li
     // While only materials change, as under a brush, highlights stay as they are.
     std::vector<double> key = directLightKey(camera, lights);
     if (key != shadedKey) {
+        const DirectLight::Surroundings around{reflection.get(), environment, ownLights.size()};
         directLight.shade(lights, world.sceneSphere, gpuWorld, view, settings.specular,
-                          settings.shadows);
+                          settings.shadows, reflection ? &around : nullptr);
         shadedKey = std::move(key);
     }
     shading.shade(view, *exitance, directLight.radiance());
@@ -168,6 +178,26 @@ FrameRenderer::FrameRenderer(const gl::Context& context, std::shared_ptr<const G
     : mPasses(std::make_unique<Passes>(context, std::move(scene), settings)) {}
 
 FrameRenderer::~FrameRenderer() = default;
+
+void FrameRenderer::setEnvironment(const Environment& environment) {
+    Passes& passes = *mPasses;
+    if (environment == passes.environment) {
+        return;
+    }
+    const Environment before = std::exchange(passes.environment, environment);
+    passes.aroundLights = environmentLights(environment);
+    if (!environment || !passes.settings.specular) {
+        passes.reflection.reset();
+    } else if (!passes.reflection || before.map != environment.map) {
+        passes.reflection =
+            std::make_unique<EnvironmentReflection>(passes.shaders, *environment.map);
+    }
+    passes.shadedKey.clear();
+}
+
+int FrameRenderer::irradianceSize() const {
+    return mPasses->settings.splatting.irradianceSize;
+}
 
 ExitanceSolver& FrameRenderer::solver() {
     return *mPasses->solver;

@@ -19,7 +19,7 @@ enum Unit : GLuint { kTables = 8, kFarEnergy = 9 };
 
 constexpr float kLog2TMax = 12.0f;
 constexpr int kBorder = 1;      ///< texels around a map, so that filtering finds its other side
-constexpr int kExtraLayers = 2; ///< beyond the knots: radii, kept energy
+constexpr int kExtraLayers = 3; ///< beyond the knots: radii, kept energy, specular lobe
 
 /// [height][width][knot][3] of a rectangle -> [knot][height][width][4]
 std::vector<float> knotsAsSlices(const subedit::MaterialMap& map, const subedit::TexelRect& rect) {
@@ -36,6 +36,22 @@ std::vector<float> knotsAsSlices(const subedit::MaterialMap& map, const subedit:
         }
     }
     return slices;
+}
+
+/// [height][width][4] of a rectangle: roughness and specular, -1 where the map has none.
+std::vector<float> lobeSlice(const subedit::MaterialMap& map, const subedit::TexelRect& rect) {
+    std::vector<float> slice(rect.texels() * 4, -1.0f);
+    std::size_t t = 0;
+    for (int y = rect.y; y < rect.bottom(); ++y) {
+        for (int x = rect.x; x < rect.right(); ++x, t += 4) {
+            const std::size_t texel =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
+                static_cast<std::size_t>(x);
+            slice[t] = map.roughness.empty() ? -1.0f : map.roughness[texel];
+            slice[t + 1] = map.specular.empty() ? -1.0f : map.specular[texel];
+        }
+    }
+    return slice;
 }
 
 MaterialSlots slotsOf(std::span<const MaterialPointer> materials) {
@@ -135,6 +151,7 @@ GpuMaterials::GpuMaterials(std::span<const MaterialPointer> materials, double en
         entries.push_back(entry);
         mTableSize = made.rangeTable.size();
         tables.insert(tables.end(), made.rangeTable.begin(), made.rangeTable.end());
+        mShortRadiusMm = std::min(mShortRadiusMm, made.shortRadiusMm);
         mMeanRadiusMm += made.meanRadiusMm / static_cast<float>(materials.size());
     }
     mRangeTable = gl::Texture::make2d(
@@ -157,6 +174,8 @@ void GpuMaterials::upload(int material, const subedit::MaterialMap& map,
     mTables.uploadRegion(0, offset, glm::ivec3(size, knots), knotsAsSlices(map, rect));
     mTables.uploadRegion(0, offset + glm::ivec3(0, 0, knots), glm::ivec3(size, 1), tables.radii);
     mTables.uploadRegion(0, offset + glm::ivec3(0, 0, knots + 1), glm::ivec3(size, 1), tables.kept);
+    mTables.uploadRegion(0, offset + glm::ivec3(0, 0, knots + 2), glm::ivec3(size, 1),
+                         lobeSlice(map, rect));
     mFarEnergy.uploadRegion(0, offset, glm::ivec3(size, knots), tables.logFarEnergy);
     const glm::ivec2 mapSize(map.width, map.height);
     repeatAtBorder(mTables, corner, mapSize, knots + kExtraLayers, rect);

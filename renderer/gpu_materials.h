@@ -10,6 +10,7 @@
 #include "renderer/shading/fresnel.h"
 #include "subedit/map/texel_rect.h"
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -38,6 +39,8 @@ public:
     /// One material of one texel: profiles need no map.
     [[nodiscard]] bool isHomogeneous() const { return mHomogeneous; }
     [[nodiscard]] float meanRadiusMm() const { return mMeanRadiusMm; }
+    /// R_P that a quarter of the texels fall below, of the material where it is shortest; as made.
+    [[nodiscard]] float shortRadiusMm() const { return mShortRadiusMm; }
     /// Knots that node profiles share.
     [[nodiscard]] const gather::Knots& commonKnots() const { return mCommonKnots; }
     /// Rbar(T) (eq. 14).
@@ -49,7 +52,7 @@ private:
 
     gl::Buffer mBlock;
     MaterialSlots mSlots;
-    gl::Texture mTables;    ///< [layer][row][column][4]: ln P of the knots, radii, kept energy
+    gl::Texture mTables; ///< [layer][row][column][4]: ln P of the knots, radii, kept energy, lobe
     gl::Texture mFarEnergy; ///< the same places
     gl::Texture mRangeTable;
     gl::Sampler mMapSampler, mTableSampler;
@@ -59,6 +62,7 @@ private:
     double mEnergy = 1.0;
     bool mHomogeneous = false;
     float mMeanRadiusMm = 0.0f;
+    float mShortRadiusMm = std::numeric_limits<float>::max();
     gather::Knots mCommonKnots;
 };
 

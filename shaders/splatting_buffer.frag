@@ -11,7 +11,7 @@ layout(location = 0) out vec2 outDepth; // view depth in mm (0: background), mes
 layout(location = 0) out vec4 outPosition; // xyz mm, view depth in mm (0: background)
 layout(location = 2) out vec4 outSurface;  // u, v, material (-1: opaque), R_P in mm
 layout(location = 3) out vec4 outLobe;     // normal of the specular lobe, roughness
-layout(location = 4) out vec4 outBase;     // base color (linear), metallic
+layout(location = 4) out vec4 outBase;     // base color (linear), metallic; scattering: a weighs the lobe
 layout(location = 5) out vec4 outEmission; // emitted radiance, index of refraction of the lobe
 
 layout(location = 1) uniform vec4 baseColor;
@@ -75,6 +75,10 @@ void main() {
     vec4 base = baseColor;
     if (textureSets.x >= 0) {
         base *= texture(baseColorTexture, textureCoordinate(0));
+    }
+    if (m >= 0) {
+        vec2 painted = materialLobe(m, surface.uv); // over what the model says
+        metallicRoughness = vec2(painted.y >= 0.0 ? painted.y : 1.0, painted.x >= 0.0 ? painted.x : metallicRoughness.y);
     }
     float ior = lobe.z > 0.0 ? lobe.z : (m >= 0 ? materials[max(m, 0)].profile.z : 1.5);
     outLobe = vec4(specularNormal, metallicRoughness.y);

@@ -2,6 +2,8 @@
 
 #include "renderer/scene/atlas.h"
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <vector>
 
@@ -21,6 +23,14 @@ void addMissingUvs(World& world) {
         return;
     }
     const Atlas atlas = generateAtlas(meshes);
+    // Densities that differ by so much show, on a map of even detail.
+    constexpr double kStretched = 4.0;
+    if (atlas.report.areaDistortionMax > kStretched) {
+        world.warnings.push_back(fmt::format(
+            "the automatic atlas stretches a map by up to {:.1f} in area, {:.2f} on average: give "
+            "the model texture coordinates where that shows",
+            atlas.report.areaDistortionMax, atlas.report.areaDistortionMean));
+    }
     for (std::size_t i = 0; i < indices.size(); ++i) {
         applyAtlas(atlas.meshes[i], world.meshes[indices[i]].mesh);
     }

@@ -3,7 +3,7 @@
 // The scene's SubEdit materials, any number of them, in one array texture (renderer/gpu_materials.h). Each
 // has a rectangle of texels, with a border of one texel that repeats its other side, and these layers from its
 // first one on: ln P at each of its knots; radii (R_P of energy 0.95, R_cut, shortest channel's R_P); the
-// fraction of each channel's energy inside R_cut. A second array has ln of the far energy (see accumulation)
+// fraction of each channel's energy inside R_cut; roughness and weight of the specular lobe. A second array has ln of the far energy (see accumulation)
 // at each knot, in the same places.
 #ifndef MATERIAL_COUNT
 #define MATERIAL_COUNT 1
@@ -43,6 +43,11 @@ vec3 materialRadii(int m, vec2 uv) {
 // Fraction of each channel's energy inside R_cut.
 vec3 keptEnergy(int m, vec2 uv) {
     return textureLod(materialTables, materialPlace(m, uv, materials[m].profile.y + 2.0), 0.0).rgb;
+}
+
+// Roughness of the specular lobe and its weight, each -1 where the material has no map of it.
+vec2 materialLobe(int m, vec2 uv) {
+    return textureLod(materialTables, materialPlace(m, uv, materials[m].profile.y + 3.0), 0.0).rg;
 }
 
 // ln of the integral of sqrt(P_x Pbar) r dr over [r, r_s], per channel.

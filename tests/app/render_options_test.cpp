@@ -144,6 +144,7 @@ TEST(RenderOptions, TakeEveryOption) {
     EXPECT_THAT(o.lights, ElementsAre("directional:0,-1,0", "point:-1,2,3:5,5,5"));
     EXPECT_EQ(o.environment, "sky.hdr");
     EXPECT_EQ(o.environmentLights, 16);
+    EXPECT_FALSE(o.environmentBehind);
     EXPECT_EQ(o.animation, "walk");
     EXPECT_EQ(o.timeSeconds, 1.5);
     EXPECT_THAT(o.deformations, ElementsAre("twist:y:90", "inflate:-2"));
@@ -220,6 +221,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{{"--sequence", "f%d.ply"}, "--frames", {"-o", "a.exr"}},
         Refusal{{"--stats", "a.exr"}, "--stats"}, Refusal{{"--energy", "1.01"}, "--energy"},
         Refusal{{"--samples", "0"}, "--samples"}, Refusal{{"--levels", "0"}, "--levels"},
+        Refusal{{"--background", "environment"}, "no environment"},
         Refusal{{"--background", "white"}, "--background"}, Refusal{{"--context", "vulkan"}, "egl"},
         Refusal{{"--solver", "x"}, "path-traced"}, Refusal{{"--solver", "path-traced"}, "--preset"},
         Refusal{{"--solver", "path-traced", "--material", "marble"}, "--preset"},
