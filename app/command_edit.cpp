@@ -1,5 +1,7 @@
 #include "app/command_edit.h"
 
+#include "app/edit_trace.h"
+#include "app/material/exchange_json.h"
 #include "app/option_takers.h"
 #include "app/render_options.h"
 #include "app/render_scene.h"
@@ -7,6 +9,7 @@
 #include "ui/editor.h"
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include <array>
 #include <memory>
@@ -24,6 +27,7 @@ struct EditOptions {
     RenderOptions scene; ///< model, material, scale, view, lights
     ui::EditorOptions editor;
     double exposureEv = 0.0;
+    std::optional<std::filesystem::path> trace;
 };
 
 void addScene(CLI::App& app, RenderOptions& o) {
@@ -97,6 +101,14 @@ void addReplay(CLI::App& app, EditOptions& o) {
             const int number = parseInteger({a.option, text.substr(0, colon)}, 0, 1 << 30);
             e.screenshotsAt.emplace_back(number, text.substr(colon + 1));
         });
+    addOption(app, "--repeat-for",
+              {group, "S", "Begins the replay again until so many seconds have passed"},
+              takeNumber(e.repeatSeconds, {0.0, 1e6, false}));
+    addOption(app, "--trace",
+              {group, "FILE",
+               "Times and memory of the replay as a figure (.svg, .png), with the numbers in a .csv "
+               "beside it"},
+              [&o](const Argument& a) { o.trace = parsePath(a); });
     addFlag(app, "--exit-after-replay", group, "Closes the window at the end of the replay",
             e.exitAfterReplay);
     addOption(app, "--state",
@@ -116,6 +128,10 @@ void edit(EditOptions o) {
         options.material =
             request.material.empty() ? std::nullopt : std::optional(request.material);
         return readWorld(options, 0);
+    };
+    e.services.describeMaterial = [](const subedit::MaterialMap& map,
+                                     const std::string& reference) {
+        return gltfMaterial(subedit::nearestParameters(map), map.name, reference);
     };
     e.services.isPaintable = !e.viewOnly;
     e.place = [scene, exposure = o.exposureEv](ui::Session& session) {
@@ -138,7 +154,15 @@ void edit(EditOptions o) {
         session.view.exposureEv = static_cast<float>(exposure);
         session.touchPicture();
     };
+    std::optional<EditTrace> trace;
+    if (o.trace) {
+        trace.emplace(*o.trace);
+        e.trace = [&trace](const ui::TracePoint& point) { trace->add(point); };
+    }
     ui::runEditor(e);
+    if (trace) {
+        trace->write();
+    }
 }
 
 } // namespace

@@ -30,6 +30,19 @@ void changeBrush(subedit::Brush& brush, const Arguments& a) {
     brush = changed;
 }
 
+Tool parseTool(const std::string& name) {
+    for (const auto& [word, tool] :
+         {std::pair{"paint", Tool::Paint}, std::pair{"select", Tool::Select},
+          std::pair{"similar", Tool::Similar}, std::pair{"pick", Tool::Pick},
+          std::pair{"scribble", Tool::Scribble}, std::pair{"stamp", Tool::Stamp}}) {
+        if (name == word) {
+            return tool;
+        }
+    }
+    throw UsageError("tool '" + name + "'", "there is no such tool",
+                     "choose paint, select, similar, pick, scribble or stamp");
+}
+
 void changeOperator(PaintState& paint, const Arguments& a) {
     PaintState changed = paint;
     if (a.has("name")) {
@@ -52,6 +65,12 @@ void changeOperator(PaintState& paint, const Arguments& a) {
     }
     if (a.has("tolerance")) {
         changed.tolerance = static_cast<float>(a.numberWithin("tolerance", 1e-3, 1.0));
+    }
+    if (a.has("angle")) {
+        changed.copyAngleDegrees = static_cast<float>(a.numberWithin("angle", -180.0, 180.0));
+    }
+    if (a.has("strength")) {
+        changed.patternStrength = static_cast<float>(a.numberWithin("strength", 0.0, 4.0));
     }
     if (a.has("color")) {
         changed.color = colorArgument(a, "color");
@@ -77,19 +96,13 @@ void addBrushCommands(Session& session) {
                          session.paint.mirror[i] = a.flag(names[i], session.paint.mirror[i]);
                      }
                  });
-    commands.add("tool.choose", "paint, select, similar or pick", [&session](const Arguments& a) {
-        const std::string name = a.text("name");
-        for (const auto& [word, tool] :
-             {std::pair{"paint", Tool::Paint}, std::pair{"select", Tool::Select},
-              std::pair{"similar", Tool::Similar}, std::pair{"pick", Tool::Pick}}) {
-            if (name == word) {
-                session.paint.tool = tool;
-                return;
-            }
-        }
-        throw UsageError("tool '" + name + "'", "there is no such tool",
-                         "choose paint, select, similar or pick");
-    });
+    commands.add("tool.choose", "paint, select, similar, pick, scribble or stamp",
+                 [&session](const Arguments& a) { session.paint.tool = parseTool(a.text("name")); });
+    commands.add("gradient.line", "Where a gradient begins and ends: from and to in mm",
+                 [&session](const Arguments& a) {
+                     session.paint.gradientFromMm = glm::vec3(a.vector3("from"));
+                     session.paint.gradientToMm = glm::vec3(a.vector3("to"));
+                 });
 }
 
 } // namespace celadon::ui

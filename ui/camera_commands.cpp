@@ -1,5 +1,6 @@
 // Commands that move the camera. Lengths in mm, angles in degrees.
 #include "ui/camera_controller.h"
+#include "ui/light_rig.h"
 #include "ui/session.h"
 
 #include <glm/vec3.hpp>
@@ -16,6 +17,15 @@ void addCameraCommands(Session& session) {
     commands.add("camera.orbit", "Turns about the target: azimuth and elevation in degrees",
                  [&session, change](const Arguments& a) {
                      change(orbited(session.camera, a.number("azimuth"), a.number("elevation")));
+                 });
+    commands.add("camera.turntable",
+                 "Turns camera and lights together about the target, so that the object turns: degrees",
+                 [&session, change](const Arguments& a) {
+                     Camera camera = session.camera;
+                     LightRig rig = session.rig;
+                     turnAround(camera, rig, a.number("degrees"));
+                     session.rig = std::move(rig);
+                     change(camera);
                  });
     commands.add("camera.pan", "Shifts the view: right and up in mm",
                  [&session, change](const Arguments& a) {

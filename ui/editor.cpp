@@ -1,29 +1,30 @@
 #include "ui/editor.h"
 
-#include "renderer/output/atomic_file.h"
-#include "renderer/output/image_io.h"
 #include "subedit/errors.h"
+#include "ui/background_jobs.h"
 #include "ui/background_open.h"
+#include "ui/file_actions.h"
+#include "ui/file_watch.h"
 #include "ui/journal.h"
+#include "ui/key_actions.h"
 #include "ui/layout.h"
-#include "ui/panels/file_dialog.h"
-#include "ui/panels/question.h"
+#include "ui/picture_file.h"
 #include "ui/picture_worker.h"
 #include "ui/preferences.h"
-#include "ui/recorder.h"
-#include "ui/replayer.h"
-#include "ui/shortcuts.h"
+#include "ui/script.h"
+#include "ui/thumbnails.h"
+#include "ui/truth_view.h"
+#include "ui/turntable.h"
 #include "ui/user_folders.h"
 #include "ui/viewport.h"
 #include "ui/viewport_tools.h"
 #include "ui/window.h"
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 #include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace celadon::ui {
@@ -32,20 +33,10 @@ namespace {
 
 /// ImGui settles within so many frames after an event (hover, layout, popups).
 constexpr int kSettlingFrames = 3;
-
-/// @param rgb rows from the top
-void writePicture(const std::filesystem::path& file, const std::vector<unsigned char>& rgb,
-                  glm::ivec2 size) {
-    FloatImage image;
-    image.width = size.x;
-    image.height = size.y;
-    image.channels = {"R", "G", "B"};
-    image.pixels.reserve(rgb.size());
-    for (const unsigned char value : rgb) {
-        image.pixels.push_back(static_cast<float>(value) / 255.0f);
-    }
-    writeDisplayImage(file, image);
-}
+constexpr double kWatchSeconds = 0.5;
+/// Of the interface where the driver is software: the rest of the processor makes the picture.
+constexpr std::chrono::milliseconds kSoftwareFrame{25};
+constexpr double kTurnDegreesPerSecond = 36.0;
 
 class Editor {
 public:
@@ -53,62 +44,58 @@ public:
     void run();
 
 private:
-    void loop();
     void step();
     void poll();
-    void drawFrame();
-    void handleInput();
-    void handleKey(const InputEvent& event);
-    void advanceReplay();
-    void drawWindows();
-    void askBeforeLosing(const std::function<void()>& act);
-    void chooseFile(FileDialog::Kind kind, const std::string& title,
-                    std::vector<std::string> suffixes, const std::string& name,
-                    std::function<void(const std::filesystem::path&)> done);
-    void offerRecovery();
-    bool saveMaterial(const std::filesystem::path& file);
+    void pollOpening();
     void worldOpened();
-    void watchFiles();
+    void recover(const Recovery& recovery);
+    void offerRecovery();
+    void playTurntable();
+    void drawFrame();
+    void drawContents();
+    void handleInput();
+    void advanceScript();
     void setActions();
     void addWindowCommands();
-    void savePreferences();
+    void keepJournal();
     void takeScreenshot(const std::filesystem::path& file);
-    void writeState();
+    [[nodiscard]] nlohmann::json state() const;
+    [[nodiscard]] bool mustDraw() const;
+    [[nodiscard]] double secondsToFrame() const; ///< until the next one may be drawn
     [[nodiscard]] double secondsToSleep() const;
-    [[nodiscard]] bool isQuiet() const;
-    [[nodiscard]] bool isScripted() const;
+    [[nodiscard]] Script::Progress progress() const;
 
     EditorOptions mOptions;
     Preferences mPreferences;
     Session mSession;
+    Script mScript;
     Window mWindow;
     PictureWorker mWorker;
     Viewport mViewport;
     ViewportTools mTools;
     BackgroundOpen mOpen;
+    Journal mJournal;
+    FileActions mFiles;
     LayoutState mLayout;
     LayoutActions mActions;
-    FileDialog mFiles;
-    Question mQuestion;
-    Journal mJournal;
+    FileWatch mWatch;
     std::optional<Recovery> mRecovery; ///< to be replayed once its model is open
-    std::filesystem::path mLastFolder;
-    std::optional<Recorder> mRecorder;
-    std::optional<Replayer> mReplayer;
-    std::optional<std::filesystem::path> mLastScreenshot; ///< --screenshot, still to be taken
     bool mIsPlaced = false;
     std::uint64_t mSeenWorld = 0;
-    OpenRequest mWatched; ///< files whose times these are
-    std::vector<std::filesystem::file_time_type> mWatchedTimes;
+    std::optional<std::chrono::steady_clock::time_point> mTurning; ///< time of the last turn
     bool mShouldClose = false;
     int mFramesToDraw = kSettlingFrames;
-    std::string mWrittenState;
+    std::chrono::steady_clock::time_point mNextFrame;
+    BackgroundJobs mJobs; ///< after all that its results touch
+    Thumbnails mThumbnails;
+    TruthView mTruth;
 };
 
 Editor::Editor(const EditorOptions& options)
     : mOptions(options),
       mPreferences(readPreferences(preferencesFile())),
       mSession(options.services),
+      mScript(mOptions, mSession),
       mWindow("Celadon", options.windowSize,
               options.scale > 0.0 ? options.scale : mPreferences.uiScale),
       mWorker(mWindow.workerWindow(), [] { Window::wake(); }),
@@ -116,197 +103,132 @@ Editor::Editor(const EditorOptions& options)
       mTools(mSession),
       mOpen(mSession),
       mJournal(stateFolder()),
-      mLastScreenshot(options.screenshot) {
-    if (options.record) {
-        mRecorder.emplace(*options.record);
-        mSession.dispatcher().observe(
-            [this](const Command& command) { mRecorder->write(command); });
-    }
-    if (options.replay || !options.screenshotsAt.empty()) {
-        mReplayer.emplace(options.replay ? readCommands(*options.replay) : std::vector<Command>(),
-                          options.screenshotsAt);
-    }
+      mFiles(mSession, mOpen, mPreferences, mJournal, mScript.isUnattended()),
+      mJobs(mWindow.jobsWindow(), [] { Window::wake(); }),
+      mThumbnails(mJobs, cacheFolder() / "thumbnails"),
+      mTruth(mJobs) {
     for (int i = 0; i < static_cast<int>(mViewport.ladder().rungs().size()); ++i) {
         if (mViewport.ladder().rungs()[static_cast<std::size_t>(i)].quality <= options.finest) {
             mViewport.setFinestRung(i);
         }
     }
+    mViewport.rehearse(!mScript.isUnattended());
+    keepJournal();
+    setActions();
+    addWindowCommands();
+}
+
+void Editor::keepJournal() {
     mSession.dispatcher().observe([this](const Command& command) {
-        if (mPreferences.autosave && !isScripted()) {
+        if (mPreferences.autosave && !mScript.isUnattended()) {
             if (const auto problem = mJournal.add(command)) {
                 mSession.notify(Notice::Kind::Warning, *problem);
             }
         }
     });
-    setActions();
-    addWindowCommands();
 }
 
 /// What concerns the window only, so that replays can show every panel.
 void Editor::addWindowCommands() {
     Dispatcher& commands = mSession.dispatcher();
-    commands.add(
-        "window.tab", "Shows a tab of the side bar: brush, profile, material, light, view",
-        [this](const Arguments& a) { mLayout.tab = parseTab(a.text("name")); }, false);
-    commands.add(
-        "window.show", "Shows or hides panels, help, preferences",
+    const auto add = [&commands](const char* name, const char* summary,
+                                 Dispatcher::Handler handler) {
+        commands.add(name, summary, std::move(handler), false);
+    };
+    add("window.tab", "Shows a tab of the side bar: brush, profile, material, light, view",
+        [this](const Arguments& a) { mLayout.tab = parseTab(a.text("name")); });
+    add("window.show", "Shows or hides panels, help, preferences", [this](const Arguments& a) {
+        mLayout.panelsShown = a.flag("panels", mLayout.panelsShown);
+        mLayout.helpShown = a.flag("help", mLayout.helpShown);
+        mLayout.preferencesShown = a.flag("preferences", mLayout.preferencesShown);
+    });
+    add("window.scroll", "Scrolls the side bar, 0 top to 1 bottom",
+        [this](const Arguments& a) { mLayout.scrollTo = a.numberWithin("to", 0.0, 1.0); });
+    add("window.dialog", "Opens a dialog: open, save", [this](const Arguments& a) {
+        a.text("name") == "save" ? mFiles.saveAs() : mFiles.openModel();
+    });
+    add("window.menu", "Opens a menu: file, edit, view, help; none closes them",
+        [this](const Arguments& a) { mLayout.openMenu = a.text("name"); });
+    add("window.drop", "As if a file were dropped on the window: file",
+        [this](const Arguments& a) { mFiles.drop(a.text("file")); });
+    add("window.cursor", "Where the tools take the cursor to be, of the viewport: 0,0 top left",
+        [this](const Arguments& a) { mTools.pretend(a.vector2("place")); });
+    add("export.turntable", "Pictures of a whole turn: file, frames, size in pixels",
         [this](const Arguments& a) {
-            mLayout.panelsShown = a.flag("panels", mLayout.panelsShown);
-            mLayout.helpShown = a.flag("help", mLayout.helpShown);
-            mLayout.preferencesShown = a.flag("preferences", mLayout.preferencesShown);
-        },
-        false);
-    commands.add(
-        "window.scroll", "Scrolls the side bar, 0 top to 1 bottom",
-        [this](const Arguments& a) { mLayout.scrollTo = a.numberWithin("to", 0.0, 1.0); }, false);
-    commands.add(
-        "window.dialog", "Opens a dialog: open, save",
-        [this](const Arguments& a) {
-            a.text("name") == "save" ? mActions.saveAs() : mActions.openModel();
-        },
-        false);
-}
-
-bool Editor::isScripted() const {
-    return mOptions.replay || mOptions.exitAfterReplay;
+            TurntableSettings settings;
+            settings.file = a.text("file");
+            settings.frames = a.integerWithin("frames", 1, 10000);
+            if (a.has("size")) {
+                settings.sizePx = glm::ivec2(a.vector2("size"));
+                if (std::min(settings.sizePx.x, settings.sizePx.y) < 16 ||
+                    std::max(settings.sizePx.x, settings.sizePx.y) > 8192) {
+                    throw UsageError("export.turntable, size", "is not within 16 to 8192 pixels");
+                }
+            }
+            startTurntable(mSession, mJobs, settings);
+        });
 }
 
 void Editor::setActions() {
-    const auto open = [this](const OpenRequest& request) {
-        askBeforeLosing([this, request] { mOpen.start(request); });
-    };
-    mActions.open = [open](const std::string& model) { open({model, {}}); };
-    mActions.putOn = [this, open](const std::string& material) {
-        open({mSession.opened().model, material});
-    };
-    mActions.openModel = [this, open] {
-        chooseFile(FileDialog::Kind::Open, "Open a model",
-                   {".gltf", ".glb", ".obj", ".ply", ".off", ".stl"}, "", [open](const auto& file) {
-                       open({file.string(), {}});
-                   });
-    };
-    mActions.openMaterial = [this] {
-        chooseFile(FileDialog::Kind::Open, "Open a material", {".subedit.exr"}, "",
-                   [this](const auto& file) { mActions.putOn(file.string()); });
-    };
-    mActions.openEnvironment = [this] {
-        chooseFile(FileDialog::Kind::Open, "Open an environment", {".hdr", ".exr"}, "",
-                   [this](const auto& file) {
-                       mSession.perform({"environment.open", {{"file", file.string()}}});
-                   });
-    };
-    mActions.saveAs = [this] {
-        if (mSession.activeDocument() == nullptr) {
-            return;
-        }
-        const std::string name = mSession.materialFile
-                                     ? mSession.materialFile->filename().string()
-                                     : mSession.activeDocument()->material().name + ".subedit.exr";
-        chooseFile(FileDialog::Kind::Save, "Save the material", {".subedit.exr"}, name,
-                   [this](const auto& file) {
-                       if (saveMaterial(file)) {
-                           addRecent(mPreferences.recentMaterials, file.string());
-                           savePreferences();
-                       }
-                   });
-    };
-    mActions.save = [this] {
-        if (mSession.materialFile) {
-            saveMaterial(*mSession.materialFile);
-        } else {
-            mActions.saveAs();
-        }
-    };
+    mActions.open = [this](const std::string& model) { mFiles.open({model, {}}); };
+    mActions.putOn = [this](const std::string& material) { mFiles.putOn(material); };
+    mActions.openModel = [this] { mFiles.openModel(); };
+    mActions.openMaterial = [this] { mFiles.openMaterial(); };
+    mActions.openEnvironment = [this] { mFiles.openEnvironment(); };
+    mActions.openStamp = [this] { mFiles.openStamp(); };
+    mActions.save = [this] { mFiles.save(); };
+    mActions.saveAs = [this] { mFiles.saveAs(); };
+    mActions.saveAsNew = [this](const std::string& name) { mFiles.saveAsNew(name); };
+    mActions.exportGltf = [this] { mFiles.exportGltf(); };
     mActions.savePicture = [this] {
-        chooseFile(FileDialog::Kind::Save, "Save the picture", {".png"}, "celadon.png",
-                   [this](const auto& file) {
-                       try {
-                           writePicture(file, mViewport.readPixels(), mViewport.shown().sizePx);
-                           mSession.notify(Notice::Kind::Info,
-                                           fmt::format("Saved '{}'", file.string()));
-                       } catch (const Error& error) {
-                           mSession.notify(Notice::Kind::Error, error.what());
-                       }
-                   });
+        mFiles.chooseOutput("Save the picture", ".png", "celadon.png", [this](const auto& file) {
+            try {
+                writePicture(file, mViewport.texture());
+                mSession.notify(Notice::Kind::Info, fmt::format("Saved '{}'", file.string()));
+            } catch (const Error& error) {
+                mSession.notify(Notice::Kind::Error, error.what());
+            }
+        });
     };
+    mActions.saveTurntable = [this](int frames) {
+        mFiles.chooseOutput("Save a turntable", ".png", "turntable.png",
+                            [this, frames](const auto& file) {
+                                mSession.perform({"export.turntable",
+                                                  {{"file", file.string()}, {"frames", frames}}});
+                            });
+    };
+    mActions.cancelJobs = [this] { mJobs.cancelShown(); };
     mActions.toggleFullScreen = [this] { mWindow.toggleFullScreen(); };
-    mActions.quit = [this] { askBeforeLosing([this] { mShouldClose = true; }); };
+    mActions.toggleTurntable = [this] {
+        mTurning = mTurning ? std::nullopt : std::optional(std::chrono::steady_clock::now());
+        mLayout.isTurning = mTurning.has_value();
+    };
+    mActions.quit = [this] { mFiles.guard([this] { mShouldClose = true; }); };
     mActions.preferencesChanged = [this] {
         if (mPreferences.uiScale > 0.0) {
             mWindow.setScale(static_cast<float>(mPreferences.uiScale));
         }
-        savePreferences();
+        mFiles.savePreferences();
     };
 }
 
-void Editor::chooseFile(FileDialog::Kind kind, const std::string& title,
-                        std::vector<std::string> suffixes, const std::string& name,
-                        std::function<void(const std::filesystem::path&)> done) {
-    std::filesystem::path folder = mLastFolder;
-    if (folder.empty() && !mSession.opened().model.starts_with("builtin:")) {
-        folder = std::filesystem::path(mSession.opened().model).parent_path();
-    }
-    mFiles.open(kind, title, std::move(suffixes), folder, name,
-                [this, done = std::move(done)](const std::filesystem::path& file) {
-                    mLastFolder = file.parent_path();
-                    done(file);
-                });
-}
-
-/// Unsaved changes are never lost without a word.
-void Editor::askBeforeLosing(const std::function<void()>& act) {
-    if (!mSession.isModified() || isScripted()) {
-        act();
-        return;
-    }
-    mQuestion.ask("Unsaved changes", "The material has changes that are not saved.",
-                  {{"Save\xe2\x80\xa6", [this] { mActions.save(); }},
-                   {"Do not save",
-                    [this, act] {
-                        mSession.markSaved();
-                        act();
-                    }},
-                   {"Cancel", {}}});
-}
-
-void Editor::savePreferences() {
-    try {
-        writePreferences(mPreferences, preferencesFile());
-    } catch (const Error& error) {
-        mSession.notify(Notice::Kind::Warning, error.what());
-    }
-}
-
-bool Editor::saveMaterial(const std::filesystem::path& file) {
-    if (const auto problem = mJournal.keep(file)) {
-        mSession.notify(Notice::Kind::Warning, *problem);
-    }
-    return mSession.perform({"file.save", {{"file", file.string()}}});
-}
-
 void Editor::offerRecovery() {
-    const std::optional<Recovery> found = isScripted() ? std::nullopt : findRecovery(stateFolder());
+    const std::optional<Recovery> found =
+        mScript.isUnattended() ? std::nullopt : findRecovery(stateFolder());
     if (!found) {
         return;
     }
-    mQuestion.ask(
-        "Recovery",
-        fmt::format("Celadon did not close properly. There are {} steps of painting on '{}' that "
-                    "were perhaps not saved.",
-                    found->commands.size(), found->opened.model),
-        {{"Recover",
-          [this, recovery = *found] {
-              mRecovery = recovery;
-              mOpen.start(recovery.opened);
-          }},
-         {"Discard", [recovery = *found] { discard(recovery); }},
-         {"Later", {}}});
-}
-
-void Editor::drawWindows() {
-    drawLayout(mSession, mLayout, mPreferences, mActions, mViewport, mWindow.scale());
-    mFiles.draw(mWindow.scale());
-    mQuestion.draw(mWindow.scale());
+    mFiles.ask("Recovery",
+               fmt::format("Celadon did not close properly. There are {} steps of painting on '{}' "
+                           "that were perhaps not saved.",
+                           found->commands.size(), found->opened.model),
+               {{"Recover",
+                 [this, recovery = *found] {
+                     mRecovery = recovery;
+                     mOpen.start(recovery.opened);
+                 }},
+                {"Discard", [recovery = *found] { discard(recovery); }},
+                {"Later", {}}});
 }
 
 void Editor::run() {
@@ -325,16 +247,18 @@ void Editor::step() {
         mWindow.clearHadEvents();
         mFramesToDraw = kSettlingFrames;
     }
-    const glm::ivec2 size = mWindow.sizePx();
-    if (mFramesToDraw > 0 && size.x > 0 && size.y > 0) {
+    if (mustDraw() && secondsToFrame() <= 0.0) {
         --mFramesToDraw;
         drawFrame();
     }
     if (mViewport.update(mSession)) {
         mFramesToDraw = std::max(mFramesToDraw, 1);
     }
-    advanceReplay();
-    writeState();
+    mTruth.update(mSession, mViewport.rect().size, mViewport.isAtRest(mSession));
+    advanceScript();
+    if (mOptions.state) {
+        mScript.writeState(state());
+    }
     if (mWindow.wantsClose()) {
         mWindow.cancelClose();
         mActions.quit();
@@ -345,136 +269,180 @@ void Editor::step() {
                                  name.empty() ? "Celadon" : name));
 }
 
+Script::Progress Editor::progress() const {
+    const bool isTruthAwaited =
+        mSession.view.mode.mode == ViewMode::Difference && !mTruth.isComplete(mSession);
+    return {!mOpen.isRunning() && mViewport.isSettled(mSession) && mFramesToDraw == 0 &&
+                mJobs.isIdle() && !isTruthAwaited,
+            !mJobs.isIdle(), mViewport.shownRevision()};
+}
+
+bool Editor::mustDraw() const {
+    const glm::ivec2 size = mWindow.sizePx(); // zero while it is minimized
+    return mFramesToDraw > 0 && size.x > 0 && size.y > 0;
+}
+
+double Editor::secondsToFrame() const {
+    return std::chrono::duration<double>(mNextFrame - std::chrono::steady_clock::now()).count();
+}
+
 double Editor::secondsToSleep() const {
-    const glm::ivec2 size = mWindow.sizePx();
-    if (mFramesToDraw > 0 && size.x > 0 && size.y > 0) {
-        return 0.0;
+    if (mustDraw()) {
+        return std::max(secondsToFrame(), 0.0);
     }
-    const bool hasScript =
-        (mReplayer && !mReplayer->isDone()) || mLastScreenshot || mOptions.exitAfterReplay;
-    const bool waitsForPicture = mReplayer && !mReplayer->isDone()
-                                     ? mReplayer->dueScreenshot().has_value()
-                                     : mLastScreenshot.has_value();
-    if (hasScript && !mOpen.isRunning() && mSession.hasWorld() && (!waitsForPicture || isQuiet())) {
+    if (!mOpen.isRunning() && mSession.hasWorld() && mScript.isReady(progress())) {
         return 0.0;
     }
     double seconds = mViewport.secondsToNextStep();
-    if (mOpen.isRunning() && (seconds < 0.0 || seconds > 0.25)) {
-        seconds = 0.25; // the status bar counts the seconds
+    const auto atMost = [&seconds](double most) {
+        seconds = seconds < 0.0 ? most : std::min(seconds, most);
+    };
+    if (mOpen.isRunning() || mJobs.running()) {
+        atMost(0.25); // the status bar shows how far it is
     }
-    constexpr double kWatchSeconds = 0.5;
-    if (mOptions.watch && (seconds < 0.0 || seconds > kWatchSeconds)) {
-        seconds = kWatchSeconds;
+    if (mTurning) {
+        atMost(0.02);
+    }
+    if (mOptions.watch) {
+        atMost(kWatchSeconds);
     }
     return seconds;
 }
 
-/// --watch: files that changed on disk are read again, unless the material was painted on.
-void Editor::watchFiles() {
-    if (!mOptions.watch || mOpen.isRunning() || !mSession.hasWorld()) {
-        return;
-    }
-    const OpenRequest& opened = mSession.opened();
-    std::vector<std::filesystem::file_time_type> times;
-    for (const std::string& name : {opened.model, opened.material}) {
-        std::error_code failed;
-        const auto time = std::filesystem::last_write_time(name, failed);
-        times.push_back(failed ? std::filesystem::file_time_type::min() : time);
-    }
-    const bool isSame = opened.model == mWatched.model && opened.material == mWatched.material;
-    if (isSame && times != mWatchedTimes) {
+void Editor::poll() {
+    if (mOptions.watch && !mOpen.isRunning() && mSession.hasWorld() &&
+        mWatch.hasChanged(mSession.opened())) {
         if (mSession.isModified()) {
             mSession.notify(Notice::Kind::Warning,
                             "A file changed on disk; it is not read again, since the material has "
                             "changes that are not saved");
         } else {
-            mOpen.start(opened);
+            mOpen.start(mSession.opened());
         }
         mFramesToDraw = kSettlingFrames;
     }
-    mWatched = opened;
-    mWatchedTimes = times;
+    pollOpening();
+    if (mJobs.poll()) {
+        mFramesToDraw = kSettlingFrames;
+    }
+    for (const std::string& problem : mJobs.takeErrors()) {
+        mSession.notify(Notice::Kind::Error, problem);
+        mFramesToDraw = kSettlingFrames;
+    }
+    if (const auto running = mJobs.running()) {
+        mLayout.job = running;
+        mFramesToDraw = std::max(mFramesToDraw, 1);
+    } else if (mLayout.job) {
+        mLayout.job.reset();
+        mFramesToDraw = kSettlingFrames;
+    }
+    for (const std::filesystem::path& file : mWindow.takeDroppedFiles()) {
+        mFiles.drop(file);
+        mFramesToDraw = kSettlingFrames;
+    }
+    playTurntable();
 }
 
-void Editor::poll() {
-    watchFiles();
+void Editor::pollOpening() {
     if (mOpen.isRunning()) {
         mLayout.activity =
             fmt::format("Opening {} \xe2\x80\xa6 {:.0f} s", mOpen.request().model, mOpen.seconds());
         mFramesToDraw = std::max(mFramesToDraw, 1);
     }
-    if (mOpen.poll()) {
-        mFramesToDraw = kSettlingFrames;
-        if (!mOpen.isRunning()) {
-            mLayout.activity.clear();
-        }
-        if (mSession.hasWorld() && !mIsPlaced && mOptions.place) {
-            mOptions.place(mSession);
-            mIsPlaced = true;
-        }
-        if (mSession.worldRevision() != mSeenWorld) {
-            mSeenWorld = mSession.worldRevision();
-            worldOpened();
-        }
+    if (!mOpen.poll()) {
+        return;
     }
-    for (const std::filesystem::path& file : mWindow.takeDroppedFiles()) {
-        mFramesToDraw = kSettlingFrames;
-        const std::string name = file.filename().string();
-        if (name.ends_with(".hdr") || (name.ends_with(".exr") && !name.ends_with(".subedit.exr"))) {
-            mSession.perform({"environment.open", {{"file", file.string()}}});
-        } else if (name.ends_with(".subedit.exr")) {
-            mActions.putOn(file.string());
-        } else {
-            mActions.open(file.string());
-        }
+    mFramesToDraw = kSettlingFrames;
+    if (!mOpen.isRunning()) {
+        mLayout.activity.clear();
+    }
+    if (mSession.hasWorld() && !mIsPlaced && mOptions.place) {
+        mOptions.place(mSession);
+        mIsPlaced = true;
+    }
+    if (mSession.worldRevision() != mSeenWorld) {
+        mSeenWorld = mSession.worldRevision();
+        worldOpened();
     }
 }
 
 void Editor::worldOpened() {
-    const OpenRequest& opened = mSession.opened();
-    if (!isScripted()) {
-        addRecent(mPreferences.recentModels, opened.model);
-        if (opened.material.ends_with(".subedit.exr")) {
-            addRecent(mPreferences.recentMaterials, opened.material);
-        }
-        savePreferences();
-    }
-    mJournal.begin(opened);
-    if (mRecovery && mRecovery->opened.model == opened.model) {
-        const Recovery recovery = *std::exchange(mRecovery, std::nullopt);
-        std::size_t done = 0;
-        for (const Command& command : recovery.commands) {
-            done += mSession.perform(command) ? 1 : 0;
-        }
-        mSession.notify(Notice::Kind::Info,
-                        fmt::format("Recovered {} of {} steps; they are not saved yet", done,
-                                    recovery.commands.size()));
-        mSession.materialFile.reset(); // nothing takes the file's name unless asked to
-        std::error_code ignored;
-        std::filesystem::remove(recovery.file, ignored);
+    mFiles.remember(mSession.opened());
+    mJournal.begin(mSession.opened());
+    if (mRecovery && mRecovery->opened.model == mSession.opened().model) {
+        recover(*std::exchange(mRecovery, std::nullopt));
     }
 }
 
+void Editor::recover(const Recovery& recovery) {
+    std::size_t done = 0;
+    for (const Command& command : recovery.commands) {
+        done += mSession.perform(command) ? 1 : 0;
+    }
+    mSession.notify(Notice::Kind::Info,
+                    fmt::format("Recovered {} of {} steps; they are not saved yet", done,
+                                recovery.commands.size()));
+    mSession.materialFile.reset(); // nothing takes the file's name unless asked to
+    std::error_code ignored;
+    std::filesystem::remove(recovery.file, ignored);
+}
+
+/// Once around in ten seconds, as fast as pictures come.
+void Editor::playTurntable() {
+    if (!mTurning || !mSession.hasWorld() || mViewport.isWaiting()) {
+        return;
+    }
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - *mTurning).count();
+    mTurning = now;
+    mSession.perform({"camera.turntable", {{"degrees", kTurnDegreesPerSecond * seconds}}});
+    mFramesToDraw = std::max(mFramesToDraw, 1);
+}
+
+void Editor::drawContents() {
+    ImDrawList& background = *ImGui::GetBackgroundDrawList();
+    const ViewportRect& rect = mViewport.rect();
+    mViewport.draw(background);
+    mTruth.draw(mSession, background, rect);
+    mTools.drawOverlay(background, rect, mWindow.scale());
+    drawLayout({mSession, mLayout, mPreferences, mActions, mViewport, mThumbnails, mTruth, mTools,
+                mWindow.scale()});
+    mFiles.draw(mWindow.scale());
+}
+
 void Editor::drawFrame() {
-    mWindow.beginFrame();
+    if (mWindow.context().isSoftware()) {
+        mNextFrame = std::chrono::steady_clock::now() + kSoftwareFrame;
+    }
+    mWindow.beginFrame(); // throws where the context is lost: the journal keeps what was done
     const ViewportRect rect = viewportRect(mWindow.sizePx(), mLayout, mWindow.scale());
     mViewport.setRect(rect);
     mSession.aspect = rect.aspect();
     handleInput();
-    ImDrawList& background = *ImGui::GetBackgroundDrawList();
-    mViewport.draw(background);
-    mTools.drawOverlay(background, rect, mWindow.scale());
-    drawWindows();
+    drawContents();
     mWindow.endFrame();
     mWindow.present();
+}
+
+void Editor::takeScreenshot(const std::filesystem::path& file) {
+    mWindow.beginFrame();
+    handleInput();
+    drawContents();
+    mWindow.endFrame();
+    const glm::ivec2 size = mWindow.sizePx();
+    const std::vector<unsigned char> pixels = mWindow.readBackBuffer();
+    mWindow.present();
+    writePicture(file, pixels, size);
 }
 
 void Editor::handleInput() {
     const ImGuiIO& io = ImGui::GetIO();
     for (const InputEvent& event : mWindow.takeInput()) {
         if (event.kind == InputEvent::Kind::Key) {
-            if (!io.WantTextInput && !mFiles.isOpen() && !mQuestion.isOpen()) {
-                handleKey(event);
+            const Shortcut* const shortcut = findShortcut(event.button, event.modifiers);
+            if (shortcut != nullptr && !io.WantTextInput && !mFiles.isAsking()) {
+                performAction(shortcut->action,
+                              {mSession, mTools, mViewport.rect(), mLayout, mActions});
             }
             continue;
         }
@@ -484,211 +452,38 @@ void Editor::handleInput() {
                  io.WantCaptureMouse);
 }
 
-void Editor::handleKey(const InputEvent& event) {
-    const Shortcut* const shortcut = findShortcut(event.button, event.modifiers);
-    if (shortcut == nullptr) {
-        return;
-    }
-    const auto look = [this](const char* name) {
-        mSession.perform({"camera.view", {{"name", name}}});
-    };
-    const auto turn = [this](double azimuth, double elevation) {
-        mSession.perform({"camera.orbit", {{"azimuth", azimuth}, {"elevation", elevation}}});
-    };
-    const auto resize = [this](double factor) {
-        const double radius = static_cast<double>(mSession.paint.brush.radiusMm);
-        mSession.perform({"brush.change", {{"radius", radius * factor}}});
-    };
-    constexpr double kTurn = 15.0;
-    constexpr double kResize = 1.15;
-    switch (shortcut->action) {
-    case Action::Help:
-        mLayout.helpShown = !mLayout.helpShown;
-        break;
-    case Action::Panels:
-        mLayout.panelsShown = !mLayout.panelsShown;
-        break;
-    case Action::FullScreen:
-        mWindow.toggleFullScreen();
-        break;
-    case Action::Quit:
-        mActions.quit();
-        break;
-    case Action::Undo:
-        mSession.perform({"edit.undo"});
-        break;
-    case Action::Redo:
-        mSession.perform({"edit.redo"});
-        break;
-    case Action::Swap:
-        mSession.perform({"profile.swap"});
-        break;
-    case Action::Pick:
-        if (const auto hit = mTools.pick(mTools.cursor(), mViewport.rect());
-            hit && hit->material >= 0) {
-            mSession.perform(
-                {"profile.pick", {{"material", hit->material}, {"uv", {hit->uv.x, hit->uv.y}}}});
-        }
-        break;
-    case Action::Radius:
-        mTools.beginAdjust(ViewportTools::Adjust::Radius);
-        break;
-    case Action::Strength:
-        mTools.beginAdjust(ViewportTools::Adjust::Strength);
-        break;
-    case Action::Smaller:
-        resize(1.0 / kResize);
-        break;
-    case Action::Larger:
-        resize(kResize);
-        break;
-    case Action::Frame:
-        mSession.perform({"camera.frame", {{"aspect", mSession.aspect}}});
-        break;
-    case Action::Front:
-        look("front");
-        break;
-    case Action::Right:
-        look("right");
-        break;
-    case Action::Top:
-        look("top");
-        break;
-    case Action::Back:
-        look("back");
-        break;
-    case Action::Left:
-        look("left");
-        break;
-    case Action::Bottom:
-        look("bottom");
-        break;
-    case Action::Initial:
-        look("initial");
-        break;
-    case Action::Projection:
-        mSession.perform({"camera.projection",
-                          {{"orthographic", !mSession.camera.orthographicHeight.has_value()}}});
-        break;
-    case Action::TurnLeft:
-        turn(kTurn, 0.0);
-        break;
-    case Action::TurnRight:
-        turn(-kTurn, 0.0);
-        break;
-    case Action::TurnUp:
-        turn(0.0, kTurn);
-        break;
-    case Action::TurnDown:
-        turn(0.0, -kTurn);
-        break;
-    case Action::Cancel:
-        mLayout.helpShown = false;
-        mTools.cancel();
-        break;
-    case Action::Paint:
-        mSession.perform({"tool.choose", {{"name", "paint"}}});
-        break;
-    case Action::Select:
-        mSession.perform({"tool.choose", {{"name", "select"}}});
-        break;
-    case Action::SelectAll:
-        mSession.perform({"select.change", {{"what", "all"}}});
-        break;
-    case Action::SelectNone:
-        mSession.perform({"select.change", {{"what", "none"}}});
-        break;
-    case Action::SelectInvert:
-        mSession.perform({"select.change", {{"what", "invert"}}});
-        break;
-    case Action::Save:
-        mActions.save();
-        break;
-    case Action::SaveAs:
-        mActions.saveAs();
-        break;
-    case Action::Open:
-        mActions.openModel();
-        break;
-    case Action::Play:
-        break;
-    }
-}
-
-bool Editor::isQuiet() const {
-    return !mOpen.isRunning() && mViewport.isSettled(mSession) && mFramesToDraw == 0;
-}
-
-void Editor::advanceReplay() {
+void Editor::advanceScript() {
     if (mOpen.isRunning() || !mSession.hasWorld()) {
         return;
     }
-    if (mReplayer && !mReplayer->isDone()) {
-        if (const auto file = mReplayer->dueScreenshot()) {
-            if (isQuiet()) {
-                takeScreenshot(*file);
-                mReplayer->screenshotTaken();
-            }
-        } else if (const std::optional<Command> command = mReplayer->next()) {
-            mSession.execute(*command);
-            mFramesToDraw = kSettlingFrames;
-        }
-        return;
+    const Script::Step step = mScript.advance(progress());
+    if (step.screenshot) {
+        takeScreenshot(*step.screenshot);
     }
-    if (mLastScreenshot) {
-        if (isQuiet()) {
-            takeScreenshot(*mLastScreenshot);
-            mLastScreenshot.reset();
-        }
-        return;
+    if (step.isCommand) {
+        mFramesToDraw = kSettlingFrames;
     }
-    if (mOptions.exitAfterReplay) {
-        mShouldClose = true;
-    }
+    mShouldClose |= step.isOver;
 }
 
-void Editor::takeScreenshot(const std::filesystem::path& file) {
-    mWindow.beginFrame();
-    handleInput();
-    ImDrawList& background = *ImGui::GetBackgroundDrawList();
-    mViewport.draw(background);
-    mTools.drawOverlay(background, mViewport.rect(), mWindow.scale());
-    drawWindows();
-    mWindow.endFrame();
-    const glm::ivec2 size = mWindow.sizePx();
-    const std::vector<unsigned char> pixels = mWindow.readBackBuffer();
-    mWindow.present();
-    writePicture(file, pixels, size);
-}
-
-void Editor::writeState() {
-    if (!mOptions.state) {
-        return;
-    }
-    const nlohmann::json state{
-        {"model", mSession.opened().model},
-        {"open", mSession.hasWorld()},
-        {"opening", mOpen.isRunning()},
-        {"settled", isQuiet()},
-        {"rung", mViewport.shownRung()},
-        {"revision", mSession.pictureRevision()},
-        {"viewport",
-         {mViewport.rect().origin.x, mViewport.rect().origin.y, mViewport.rect().size.x,
-          mViewport.rect().size.y}},
-        {"replayed", mReplayer ? mReplayer->executed() : 0},
-        {"pictures", mViewport.pictureCount()},
-        {"pictureMs", std::round(mViewport.shown().timeMs)},
-        {"modified", mSession.isModified()},
-        {"asking", mQuestion.isOpen() || mFiles.isOpen()},
-        {"undo", mSession.activeDocument() != nullptr && mSession.activeDocument()->canUndo()},
-        {"strokes",
-         mSession.activeDocument() != nullptr ? mSession.activeDocument()->commands().size() : 0},
-        {"notices", mSession.notices.empty() ? "" : mSession.notices.back().text}};
-    const std::string text = state.dump() + "\n";
-    if (text != mWrittenState) {
-        writeFileAtomically(*mOptions.state, text);
-        mWrittenState = text;
-    }
+nlohmann::json Editor::state() const {
+    const ViewportRect& rect = mViewport.rect();
+    const subedit::Document* const document = mSession.activeDocument();
+    return {{"model", mSession.opened().model},
+            {"open", mSession.hasWorld()},
+            {"opening", mOpen.isRunning()},
+            {"settled", progress().isQuiet},
+            {"rung", mViewport.shownRung()},
+            {"revision", mSession.pictureRevision()},
+            {"viewport", {rect.origin.x, rect.origin.y, rect.size.x, rect.size.y}},
+            {"replayed", mScript.executed()},
+            {"pictures", mViewport.pictureCount()},
+            {"pictureMs", std::round(mViewport.shown().timeMs)},
+            {"modified", mSession.isModified()},
+            {"asking", mFiles.isAsking()},
+            {"undo", document != nullptr && document->canUndo()},
+            {"strokes", document != nullptr ? document->commandCount() : 0},
+            {"notices", mSession.notices.empty() ? "" : mSession.notices.back().text}};
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 // Commands about files.
+#include "renderer/scene/write_gltf.h"
 #include "subedit/errors.h"
 #include "subedit/map/material_file.h"
 #include "ui/session.h"
@@ -6,6 +7,36 @@
 #include <fmt/format.h>
 
 namespace celadon::ui {
+
+namespace {
+
+/// FILE.gltf, FILE.bin, and a material file for each material that is worn.
+void exportGltf(Session& session, const std::filesystem::path& file) {
+    if (!session.hasWorld() || !session.services().describeMaterial) {
+        throw UsageError("export", "there is no model", "open one first");
+    }
+    if (file.extension() != ".gltf") {
+        throw UsageError(fmt::format("'{}'", file.string()), "is no name of a glTF",
+                         "let it end in .gltf");
+    }
+    std::vector<nlohmann::json> materials;
+    for (int i = 0; i < session.materialCount(); ++i) {
+        const subedit::Document* const document = session.document(i);
+        if (document == nullptr) {
+            throw UsageError("export", fmt::format("material {} cannot be painted", i));
+        }
+        const std::string name =
+            file.stem().string() + (i > 0 ? fmt::format("_{}", i + 1) : "") + ".subedit.exr";
+        subedit::writeMaterial(document->material(), file.parent_path() / name);
+        materials.push_back(session.services().describeMaterial(document->material(), name));
+    }
+    writeGltf(session.world(), materials, file);
+    session.notify(Notice::Kind::Info,
+                   fmt::format("Exported '{}' with {} beside it", file.string(),
+                               materials.size() > 1 ? "its materials" : "its material"));
+}
+
+} // namespace
 
 void addFileCommands(Session& session) {
     Dispatcher& commands = session.dispatcher();
@@ -15,6 +46,8 @@ void addFileCommands(Session& session) {
                      session.adopt(request, prepareScene(session.services().readWorld(request),
                                                          session.services().isPaintable));
                  });
+    commands.add("file.export", "Writes a glTF with the materials as SubEdit files beside it",
+                 [&session](const Arguments& a) { exportGltf(session, a.text("file")); });
     commands.add("file.save", "Writes the material that is worked on to a .subedit.exr",
                  [&session](const Arguments& a) {
                      const subedit::Document* const document = session.activeDocument();

@@ -29,6 +29,13 @@ RigLight towards(const char* name, const CameraFrame& frame, glm::dvec3 directio
     return result;
 }
 
+/// About +y, from +z towards +x.
+glm::dvec3 turned(const glm::dvec3& v, double radians) {
+    const double c = std::cos(radians);
+    const double s = std::sin(radians);
+    return {c * v.x + s * v.z, v.y, c * v.z - s * v.x};
+}
+
 } // namespace
 
 std::vector<Light> LightRig::resolved() const {
@@ -136,6 +143,20 @@ Light movedTo(const Light& light, const glm::dvec3& position, const BoundingSphe
         result.direction = glm::normalize(toObject);
     }
     return result;
+}
+
+void turnAround(Camera& camera, LightRig& rig, double degrees) {
+    const double radians = glm::radians(degrees);
+    const glm::dvec3 center = camera.at;
+    camera.eye = center + turned(camera.eye - center, radians);
+    camera.up = turned(camera.up, radians);
+    for (RigLight& item : rig.lights) {
+        item.light.position = center + turned(item.light.position - center, radians);
+        item.light.direction = turned(item.light.direction, radians);
+    }
+    if (rig.environment) {
+        rig.environment->turnDegrees = std::remainder(rig.environment->turnDegrees + degrees, 360.0);
+    }
 }
 
 } // namespace celadon::ui

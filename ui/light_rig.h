@@ -62,4 +62,8 @@ struct LightRig {
 [[nodiscard]] Light movedTo(const Light& light, const glm::dvec3& position,
                             const BoundingSphere& object);
 
+/// The camera and all lights turned about the vertical axis through the camera's target: what is
+/// seen is the object turning the other way.
+void turnAround(Camera& camera, LightRig& rig, double degrees);
+
 } // namespace celadon::ui

@@ -27,14 +27,6 @@ Command editCommand(int material, const subedit::EditCommand& edit) {
             {{"material", material}, {"edit", nlohmann::json::parse(subedit::commandText(edit))}}};
 }
 
-/// An edit by the tool in hand, recorded as what it came to.
-void performEdit(Session& session, const subedit::EditCommand& edit) {
-    const subedit::EditReport report = documentOf(session, session.activeMaterial).execute(edit);
-    session.dispatcher().announce(editCommand(session.activeMaterial, edit));
-    session.tell(report);
-    session.touchMaterial();
-}
-
 subedit::SelectMode parseSelectMode(const std::string& word) {
     for (const auto& [name, mode] : {std::pair{"replace", subedit::SelectMode::Replace},
                                      std::pair{"add", subedit::SelectMode::Add},
@@ -74,6 +66,13 @@ subedit::SelectionStep selectionStep(const Arguments& a) {
 }
 
 } // namespace
+
+void Session::edit(const subedit::EditCommand& command) {
+    const subedit::EditReport report = documentOf(*this, activeMaterial).execute(command);
+    mDispatcher.announce(editCommand(activeMaterial, command));
+    tell(report);
+    touchMaterial();
+}
 
 void Session::tell(const subedit::EditReport& report) {
     if (report.grownRadiusMm) {
@@ -179,14 +178,14 @@ void addPaintCommands(Session& session) {
     commands.add(
         "edit.fill", "Applies the operator to everything that is selected",
         [&session](const Arguments& a) {
-            performEdit(session, subedit::ApplyCommand{
+            session.edit(subedit::ApplyCommand{
                                      makeOperator(session.paint, a.flag("inverted", false))});
         },
         false);
     commands.add(
         "select.change", "all, none, invert; grow, shrink, feather by mm along the surface",
         [&session](const Arguments& a) {
-            performEdit(session, subedit::SelectCommand{selectionStep(a)});
+            session.edit(subedit::SelectCommand{selectionStep(a)});
         },
         false);
     commands.add(
@@ -196,7 +195,7 @@ void addPaintCommands(Session& session) {
             similar.point.positionMm = glm::vec3(a.vector3("position"));
             similar.point.normal = glm::vec3(a.vector3("normal"));
             similar.tolerance = static_cast<float>(a.numberWithin("tolerance", 1e-3, 1.0));
-            performEdit(session, subedit::SelectCommand{
+            session.edit(subedit::SelectCommand{
                                      similar, parseSelectMode(a.text("mode", "replace"))});
         },
         false);

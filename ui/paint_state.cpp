@@ -13,25 +13,27 @@ namespace celadon::ui {
 
 namespace {
 
-constexpr std::array<PaintOperatorName, 10> kOperators{{
-    {PaintOperator::Profile, "profile", "Profile",
+constexpr std::array<PaintOperatorName, 11> kOperators{{
+    {PaintOperator::Profile, "profile", "Profile", "secondary profile",
      "Mixes in the primary profile; with Ctrl the secondary one"},
-    {PaintOperator::ScaleAlbedo, "scale-albedo", "Lighten",
+    {PaintOperator::ScaleAlbedo, "scale-albedo", "Lighten", "darken",
      "Multiplies the diffuse albedo; range and shape stay. With Ctrl: divides, so it darkens"},
-    {PaintOperator::SetAlbedo, "set-albedo", "Albedo",
+    {PaintOperator::SetAlbedo, "set-albedo", "Albedo", nullptr,
      "Gives the diffuse albedo of the color below"},
-    {PaintOperator::Tint, "tint", "Tint", "Pulls the color of the albedo, its luminance stays"},
-    {PaintOperator::ScaleRange, "scale-range", "Soften",
+    {PaintOperator::Tint, "tint", "Tint", nullptr, "Pulls the color of the albedo, its luminance stays"},
+    {PaintOperator::ScaleRange, "scale-range", "Soften", "harden",
      "Multiplies the effective scattering radius; the albedo stays. With Ctrl: divides, harder"},
-    {PaintOperator::SetRange, "set-range", "Range",
+    {PaintOperator::SetRange, "set-range", "Range", nullptr,
      "Gives the effective scattering radius (R_P, mm) set below"},
-    {PaintOperator::Shape, "shape", "Shape",
+    {PaintOperator::Shape, "shape", "Shape", "shape of the secondary",
      "Gives the shape of the primary profile; albedo and range stay"},
-    {PaintOperator::Enhance, "enhance", "Contrast",
+    {PaintOperator::Enhance, "enhance", "Contrast", "smooth",
      "Makes differences from the neighborhood larger; with Ctrl it smooths them"},
-    {PaintOperator::Clone, "clone", "Clone",
+    {PaintOperator::Gradient, "gradient", "Gradient", "the other way",
+     "From the primary to the secondary profile along a line: Shift+drag over the surface draws it"},
+    {PaintOperator::Clone, "clone", "Clone", nullptr,
      "Copies the material from another place: Shift+click there first"},
-    {PaintOperator::Pattern, "pattern", "Pattern",
+    {PaintOperator::Pattern, "pattern", "Pattern", nullptr,
      "Copies only the pattern of another place onto this base: Shift+click there first"},
 }};
 
@@ -39,6 +41,10 @@ constexpr std::array<PaintOperatorName, 10> kOperators{{
 
 std::span<const PaintOperatorName> paintOperators() {
     return kOperators;
+}
+
+const PaintOperatorName& paintOperator(PaintOperator op) {
+    return *std::ranges::find(kOperators, op, &PaintOperatorName::op);
 }
 
 PaintOperator parsePaintOperator(std::string_view word) {
@@ -79,12 +85,21 @@ subedit::EditOperator makeOperator(const PaintState& state, bool inverted) {
             throw UsageError("clone", "there is no place to copy from",
                              "Shift+click on the surface first");
         }
-        const subedit::Placement placement{*state.cloneSource, *state.cloneTarget};
+        const subedit::Placement placement{*state.cloneSource, *state.cloneTarget,
+                                           state.copyAngleDegrees};
         if (state.op == PaintOperator::Clone) {
             return subedit::Clone{placement};
         }
-        return subedit::TransferPattern{placement, state.neighborhoodMm, 1.0f};
+        return subedit::TransferPattern{placement, state.neighborhoodMm, state.patternStrength};
     }
+    case PaintOperator::Gradient:
+        if (state.gradientFromMm == state.gradientToMm) {
+            throw UsageError("gradient", "there is no line along which it runs",
+                             "Shift+drag over the surface first");
+        }
+        return subedit::Gradient{inverted ? state.secondary.profile : state.primary.profile,
+                                 inverted ? state.primary.profile : state.secondary.profile,
+                                 state.gradientFromMm, state.gradientToMm};
     }
     return subedit::Mix{profile, state.amount};
 }

@@ -75,10 +75,6 @@ std::optional<int> QualityLadder::nextRung(int shown, glm::ivec2 sizePx) const {
     return next;
 }
 
-bool QualityLadder::isSlow(int rung, glm::ivec2 sizePx) const {
-    return expectedMs(rung, sizePx) > 1.5 * mBudgetMs;
-}
-
 void QualityLadder::measured(int rung, glm::ivec2 sizePx, double timeMs) {
     const auto index = static_cast<std::size_t>(rung);
     const double now = timeMs / costOf(mRungs[index], sizePx);

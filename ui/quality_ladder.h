@@ -31,8 +31,6 @@ public:
     /// What comes after `shown` at rest; nothing after the last.
     /// @param shown rung of the picture on screen, -1: none
     [[nodiscard]] std::optional<int> nextRung(int shown, glm::ivec2 sizePx) const;
-    /// A rung that may be given up when something moves: it takes longer than the budget.
-    [[nodiscard]] bool isSlow(int rung, glm::ivec2 sizePx) const;
 
     void measured(int rung, glm::ivec2 sizePx, double timeMs);
     /// Another scene: times mean nothing any more.

@@ -23,6 +23,8 @@ public:
     /// The next command, unless a screenshot is due or the end is reached.
     [[nodiscard]] std::optional<Command> next();
     [[nodiscard]] bool isDone() const;
+    /// From the first command again; screenshots were taken.
+    void begin() { mNext = 0; }
     [[nodiscard]] std::size_t executed() const { return mNext; }
 
 private:

@@ -15,6 +15,7 @@ Session::Session(SessionServices services) : mServices(std::move(services)) {
     addLightCommands(*this);
     addPaintCommands(*this);
     addProfileCommands(*this);
+    addSpreadCommands(*this);
     addViewCommands(*this);
     paint.primary = {"Milky rose", diffusionProfile({0.92f, 0.62f, 0.55f}, {6.0f, 3.0f, 2.2f})};
     paint.secondary = {"Jade", diffusionProfile({0.42f, 0.74f, 0.55f}, {2.5f, 5.0f, 3.2f})};

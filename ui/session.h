@@ -31,6 +31,9 @@ struct OpenRequest {
 struct SessionServices {
     /// @throws celadon::Error
     std::function<World(const OpenRequest&)> readWorld;
+    /// A material as a glTF has it, for viewers without SubEdit: `extras.subedit` is the reference.
+    std::function<nlohmann::json(const subedit::MaterialMap&, const std::string& reference)>
+        describeMaterial;
     bool isPaintable = true;
 };
 
@@ -83,6 +86,9 @@ public:
     [[nodiscard]] const subedit::Document* activeDocument() const {
         return document(activeMaterial);
     }
+    /// An edit of the active material by the tool in hand, recorded as what it came to.
+    /// @throws celadon::Error
+    void edit(const subedit::EditCommand& command);
     /// A stroke as it happens. Its end is the command that a replay repeats.
     void beginStroke(int material, const subedit::StrokePoint& point, bool inverted);
     void addStrokePoint(const subedit::StrokePoint& point);
@@ -143,6 +149,7 @@ void addFileCommands(Session& session);
 void addLightCommands(Session& session);
 void addPaintCommands(Session& session);
 void addProfileCommands(Session& session);
+void addSpreadCommands(Session& session);
 void addViewCommands(Session& session);
 
 } // namespace celadon::ui

@@ -15,6 +15,11 @@ inline const ImVec4 kError{0.94f, 0.48f, 0.43f, 1.0f};
 inline const ImVec4 kPanel{0.105f, 0.113f, 0.117f, 1.0f};
 } // namespace colors
 
+/// A part of the frame around the viewport: it has its place.
+inline constexpr ImGuiWindowFlags kFixedWindow =
+    ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+
 enum class Font { Body, Heading, Small, Mono };
 
 /// Rebuilds the font atlas; the GL texture is the caller's. Roboto, else DejaVu Sans, else ImGui's.

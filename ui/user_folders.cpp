@@ -25,4 +25,12 @@ std::filesystem::path stateFolder() {
     return folder("XDG_STATE_HOME", ".local/state");
 }
 
+std::filesystem::path cacheFolder() {
+    return folder("XDG_CACHE_HOME", ".cache");
+}
+
+std::filesystem::path dataFolder() {
+    return folder("XDG_DATA_HOME", ".local/share");
+}
+
 } // namespace celadon::ui

@@ -7,5 +7,7 @@ namespace celadon::ui {
 
 [[nodiscard]] std::filesystem::path configFolder(); ///< preferences
 [[nodiscard]] std::filesystem::path stateFolder();  ///< journals of sessions
+[[nodiscard]] std::filesystem::path cacheFolder();  ///< thumbnails: may be deleted at any time
+[[nodiscard]] std::filesystem::path dataFolder();   ///< the user's own materials
 
 } // namespace celadon::ui

@@ -21,11 +21,18 @@ void addViewCommands(Session& session) {
     add("view.specular", "Highlights on or off",
         [&session](const Arguments& a) { session.view.specular = a.flag("on"); });
     add("view.mode",
-        "What the viewport shows: picture, exitance, level, radius, albedo, normals, uv",
+        "What the viewport shows, by name; level (a mip), light (by number), distance in mm",
         [&session](const Arguments& a) {
             session.view.mode.mode = parseViewMode(a.text("name"));
             if (a.has("level")) {
                 session.view.mode.level = a.integerWithin("level", 0, 11);
+            }
+            if (a.has("light")) {
+                session.view.mode.light = a.integerWithin("light", 0, 1 << 20);
+            }
+            if (a.has("distance")) {
+                session.view.mode.distanceMm =
+                    static_cast<float>(a.numberWithin("distance", 0.0, 1e6));
             }
         });
 }

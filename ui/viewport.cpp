@@ -16,7 +16,7 @@ bool isPartial(const std::vector<std::uint8_t>& weights) {
 }
 
 /// A pause this long is rest: finer pictures begin.
-constexpr std::chrono::milliseconds kRest{120};
+constexpr std::chrono::milliseconds kRest{80};
 
 } // namespace
 
@@ -56,10 +56,17 @@ bool Viewport::takePicture(Session& session) {
         }
         return false;
     }
-    if (!picture->isFirst) {
-        mLadder.measured(picture->rungIndex, picture->windowSizePx, picture->timeMs);
+    learn(*picture);
+    if (mInFlight && mInFlight->purpose == Purpose::Rehearsal) {
+        mInFlight.reset();
+        return false;
     }
     ++mPictureCount;
+    constexpr std::size_t kMostTimings = 90;
+    mTimings.push_back({picture->stages, picture->timeMs});
+    if (mTimings.size() > kMostTimings) {
+        mTimings.pop_front();
+    }
     if (mInFlight && mInFlight->revision == picture->revision &&
         mInFlight->rung == picture->rungIndex) {
         mInFlight.reset();
@@ -72,6 +79,19 @@ bool Viewport::takePicture(Session& session) {
     picture->rgba.clear();
     mShown = std::move(*picture);
     return true;
+}
+
+/// Pictures that compiled shaders say nothing of those that follow.
+void Viewport::learn(const Picture& picture) {
+    if (picture.isFirst) {
+        return;
+    }
+    mLadder.measured(picture.rungIndex, picture.windowSizePx, picture.timeMs);
+    if (mKnownSize != picture.windowSizePx) {
+        mKnownSize = picture.windowSizePx;
+        mKnown.assign(mLadder.rungs().size(), false);
+    }
+    mKnown[static_cast<std::size_t>(picture.rungIndex)] = true;
 }
 
 void Viewport::passMaterials(Session& session) {
@@ -89,7 +109,7 @@ void Viewport::passMaterials(Session& session) {
                 weights[texel] = static_cast<std::uint8_t>(weight >> 8);
             });
             mHasSelection = isPartial(weights);
-            mWorker.setSelection(i, {selection.width(), selection.height()}, std::move(weights));
+            mWorker.setSelection({i, {selection.width(), selection.height()}, std::move(weights)});
         }
         if (changes.layoutChanged) {
             MaterialPatch patch;
@@ -104,7 +124,8 @@ void Viewport::passMaterials(Session& session) {
     }
 }
 
-void Viewport::ask(Session& session, int rung) {
+void Viewport::ask(Session& session, int rung, Purpose purpose) {
+    passMaterials(session); // once a picture: dabs that overlap are passed once
     PictureRequest request;
     request.revision = session.pictureRevision();
     request.windowSizePx = mRect.size;
@@ -117,8 +138,14 @@ void Viewport::ask(Session& session, int rung) {
     request.display = windowDisplay(session.view);
     request.view = session.view.mode;
     request.overlayMaterial = mHasSelection ? session.activeMaterial : -1;
-    const bool giveUp = mInFlight && mLadder.isSlow(mInFlight->rung, mRect.size);
-    mInFlight = InFlight{request.revision, rung, mRect.size};
+    request.activeMaterial = session.activeMaterial;
+    if (const subedit::Document* const document = session.activeDocument();
+        document != nullptr && request.view.mode == ViewMode::Atlas) {
+        request.surface = document->surfacePointer();
+    }
+    request.wantsCounts = mWantsCounts && request.rung.quality != Quality::Sketch;
+    const bool giveUp = mInFlight && mInFlight->purpose != Purpose::Change;
+    mInFlight = InFlight{request.revision, rung, mRect.size, purpose};
     mWorker.request(std::move(request), giveUp);
 }
 
@@ -133,79 +160,79 @@ bool Viewport::update(Session& session) {
         mShownRevision = 0;
         mHasSelection = false;
         mLadder.forget();
+        mKnownSize = glm::ivec2(0);
     }
     const bool redraw = takePicture(session);
-    passMaterials(session);
     const std::uint64_t revision = session.pictureRevision();
     if (mSeenRevision != revision) {
         mSeenRevision = revision;
         mLastChange = Clock::now();
     }
     const bool isCurrent = mShownRevision == revision && mShown.windowSizePx == mRect.size;
-    const bool isComing =
-        mInFlight && mInFlight->revision == revision && mInFlight->sizePx == mRect.size;
+    const bool isComing = isWaiting() && mInFlight->revision == revision &&
+                          mInFlight->sizePx == mRect.size;
     if (isComing) {
         return redraw;
     }
     if (!isCurrent) {
-        // One coarse picture at a time: the one under way is shown before the next is begun.
-        if (!mInFlight || mLadder.isSlow(mInFlight->rung, mRect.size)) {
-            ask(session, mLadder.movingRung(mRect.size));
+        // One coarse picture at a time: the one under way is shown before the next is begun, however
+        // long it takes. To give it up for a newer one could go on for ever.
+        if (!mInFlight || mInFlight->purpose != Purpose::Change) {
+            ask(session, mLadder.movingRung(mRect.size), Purpose::Change);
         }
         return redraw;
     }
     if (Clock::now() - mLastChange >= kRest) {
         const std::optional<int> next = mLadder.nextRung(mShown.rungIndex, mRect.size);
         if (next && mShown.rungIndex < mFinestRung) {
-            ask(session, std::min(*next, mFinestRung));
+            ask(session, std::min(*next, mFinestRung), Purpose::Refinement);
+        } else if (mRehearses && !mInFlight) {
+            const int rung = mLadder.movingRung(mRect.size);
+            if (mKnownSize != mRect.size || !mKnown[static_cast<std::size_t>(rung)]) {
+                ask(session, rung, Purpose::Rehearsal);
+            }
         }
     }
     return redraw;
 }
 
 double Viewport::secondsToNextStep() const {
-    if (mInFlight || mShownRevision == 0 || mShown.rungIndex >= mFinestRung) {
+    if (mInFlight || mShownRevision == 0) {
         return -1.0;
+    }
+    if (mShown.rungIndex >= mFinestRung) {
+        return -1.0; // what is left to rehearse is asked for as the picture arrives
     }
     const auto left = std::chrono::duration<double>(mLastChange + kRest - Clock::now()).count();
     return std::max(left, 0.001);
 }
 
 bool Viewport::isSettled(const Session& session) const {
-    return session.hasWorld() && !mInFlight && mShownRevision == session.pictureRevision() &&
+    return session.hasWorld() && !isWaiting() && mShownRevision == session.pictureRevision() &&
            mShown.windowSizePx == mRect.size && mShown.rungIndex >= mFinestRung;
 }
 
-std::vector<unsigned char> Viewport::readPixels() const {
-    const glm::ivec2 size = mShown.sizePx;
-    std::vector<unsigned char> rgba(mTexture.texelCount() * 4);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glGetTextureImage(mTexture.id(), 0, GL_RGBA, GL_UNSIGNED_BYTE,
-                      static_cast<GLsizei>(rgba.size()), rgba.data());
-    std::vector<unsigned char> rgb;
-    rgb.reserve(mTexture.texelCount() * 3);
-    for (int y = size.y - 1; y >= 0; --y) {
-        for (int x = 0; x < size.x; ++x) {
-            const auto i = static_cast<std::size_t>(y * size.x + x) * 4;
-            rgb.insert(rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
-        }
-    }
-    return rgb;
+bool Viewport::isAtRest(const Session& session) const {
+    return session.hasWorld() && mShownRevision == session.pictureRevision() &&
+           Clock::now() - mLastChange >= kRest;
+}
+
+void drawOver(const gl::Texture& texture, const ViewportRect& rect, ImDrawList& list) {
+    const ImVec2 low(static_cast<float>(rect.origin.x), static_cast<float>(rect.origin.y));
+    const ImVec2 high(low.x + static_cast<float>(rect.size.x),
+                      low.y + static_cast<float>(rect.size.y));
+    // The backend binds the texture only: how it is read is the texture's own setting.
+    const GLint filter = texture.size2d() == rect.size ? GL_NEAREST : GL_LINEAR;
+    glTextureParameteri(texture.id(), GL_TEXTURE_MIN_FILTER, filter);
+    glTextureParameteri(texture.id(), GL_TEXTURE_MAG_FILTER, filter);
+    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.id())), low,
+                  high, {0.0f, 1.0f}, {1.0f, 0.0f});
 }
 
 void Viewport::draw(ImDrawList& list) const {
-    if (!mTexture) {
-        return;
+    if (mTexture) {
+        drawOver(mTexture, mRect, list);
     }
-    const ImVec2 low(static_cast<float>(mRect.origin.x), static_cast<float>(mRect.origin.y));
-    const ImVec2 high(low.x + static_cast<float>(mRect.size.x),
-                      low.y + static_cast<float>(mRect.size.y));
-    // The backend binds the texture only: how it is read is the texture's own setting.
-    const GLint filter = mShown.sizePx == mRect.size ? GL_NEAREST : GL_LINEAR;
-    glTextureParameteri(mTexture.id(), GL_TEXTURE_MIN_FILTER, filter);
-    glTextureParameteri(mTexture.id(), GL_TEXTURE_MAG_FILTER, filter);
-    list.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(mTexture.id())), low,
-                  high, {0.0f, 1.0f}, {1.0f, 0.0f});
 }
 
 } // namespace celadon::ui

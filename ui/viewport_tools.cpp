@@ -1,11 +1,12 @@
 #include "ui/viewport_tools.h"
 
 #include "subedit/errors.h"
+#include "ui/viewport_overlay.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
-#include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,47 +19,7 @@ constexpr double kDegreesPerWidth = 220.0; ///< a drag across the viewport's hei
 constexpr double kZoomPerNotch = 0.88;
 constexpr double kGizmoReachPx = 14.0;
 
-glm::dvec2 seenAt(const Camera& camera, const glm::dvec3& point, const ViewportRect& rect) {
-    const glm::dvec3 place = projected(camera, point, rect.aspect());
-    return glm::dvec2(rect.origin) + glm::dvec2(place) * glm::dvec2(rect.size);
-}
-
 } // namespace
-
-const RayScene* ViewportTools::rays() {
-    if (!mSession.hasWorld()) {
-        return nullptr;
-    }
-    if (mRayWorld != mSession.sharedWorld()) {
-        mRays.reset();
-        mRayWorld = mSession.sharedWorld();
-        mRays = std::make_unique<RayScene>(*mRayWorld);
-    }
-    return mRays.get();
-}
-
-std::optional<SurfacePoint> ViewportTools::pick(glm::dvec2 positionPx, const ViewportRect& rect) {
-    const RayScene* const scene = rays();
-    if (scene == nullptr) {
-        return std::nullopt;
-    }
-    const Ray ray = rayThrough(mSession.camera, rect.place(positionPx), rect.aspect());
-    const std::optional<RayScene::Hit> hit = scene->nearest(ray.origin, ray.direction);
-    return hit ? std::optional(surfacePoint(*mRayWorld, hit->place)) : std::nullopt;
-}
-
-glm::dvec3 ViewportTools::pivot(glm::dvec2 positionPx, const ViewportRect& rect) {
-    if (const std::optional<SurfacePoint> hit = pick(positionPx, rect)) {
-        return hit->positionMm;
-    }
-    // Beside the object: the point of the ray that is as deep as the target.
-    const Camera& camera = mSession.camera;
-    const Ray ray = rayThrough(camera, rect.place(positionPx), rect.aspect());
-    const glm::dvec3 forward = cameraFrame(camera).forward;
-    const double along =
-        glm::dot(camera.at - ray.origin, forward) / glm::dot(ray.direction, forward);
-    return ray.origin + along * ray.direction;
-}
 
 int ViewportTools::lightAt(glm::dvec2 positionPx, const ViewportRect& rect) const {
     for (std::size_t i = 0; i < mSession.rig.lights.size(); ++i) {
@@ -97,11 +58,7 @@ void ViewportTools::handle(const InputEvent& event, const ViewportRect& rect, bo
     case InputEvent::Kind::Release:
         if (event.button == mButton) {
             move(event, rect);
-            if (mDrag == Drag::Paint) {
-                mSession.endStroke();
-            }
-            mDrag = Drag::None;
-            mButton = -1;
+            finishDrag();
         }
         break;
     case InputEvent::Kind::Move:
@@ -139,7 +96,7 @@ void ViewportTools::press(const InputEvent& event, const ViewportRect& rect) {
     } else {
         mDrag = Drag::Orbit; // Alt and the left button
     }
-    mPivot = mDrag == Drag::Orbit ? glm::dvec3(0.0) : pivot(event.positionPx, rect);
+    mPivot = mDrag == Drag::Orbit ? glm::dvec3(0.0) : mPicker.pivot(event.positionPx, rect);
 }
 
 void ViewportTools::move(const InputEvent& event, const ViewportRect& rect) {
@@ -184,8 +141,39 @@ void ViewportTools::move(const InputEvent& event, const ViewportRect& rect) {
     case Drag::Paint:
         paintTo(event.positionPx, rect);
         break;
+    case Drag::Scribble:
+    case Drag::Line:
+        dragOverSurface(event.positionPx, rect);
+        break;
     case Drag::None:
         break;
+    }
+}
+
+void ViewportTools::finishDrag() {
+    if (mDrag == Drag::Paint) {
+        mSession.endStroke();
+    } else if (mDrag == Drag::Scribble) {
+        mSession.perform(
+            {"scribble.add", {{"path", mScribble}, {"strength", mInverted ? 0.0 : 1.0}}});
+        mScribble.clear();
+    }
+    mDrag = Drag::None;
+    mButton = -1;
+}
+
+void ViewportTools::dragOverSurface(glm::dvec2 positionPx, const ViewportRect& rect) {
+    const std::optional<SurfacePoint> hit = pick(positionPx, rect);
+    if (!hit) {
+        return;
+    }
+    if (mDrag == Drag::Scribble) {
+        for (const glm::dvec3& v : {hit->positionMm, hit->shadingNormal}) {
+            mScribble.insert(mScribble.end(), {v.x, v.y, v.z});
+        }
+    } else if (hit->positionMm != mLineFrom) {
+        mSession.perform({"gradient.line",
+                          {{"from", toJson(mLineFrom)}, {"to", toJson(hit->positionMm)}}});
     }
 }
 
@@ -199,25 +187,49 @@ void ViewportTools::pressTool(const InputEvent& event, const ViewportRect& rect)
         mDrag = Drag::Orbit; // beside the object the hand turns it
         return;
     }
-    if (hit->material < 0) {
-        return;
+    if (hit->material >= 0) {
+        pressSurface(*hit, event, rect);
     }
-    if (mSession.paint.tool == Tool::Pick) {
+}
+
+void ViewportTools::pressSurface(const SurfacePoint& hit, const InputEvent& event,
+                                 const ViewportRect& rect) {
+    PaintState& paint = mSession.paint;
+    if (paint.tool == Tool::Pick) {
         mSession.perform(
-            {"profile.pick", {{"material", hit->material}, {"uv", {hit->uv.x, hit->uv.y}}}});
+            {"profile.pick", {{"material", hit.material}, {"uv", {hit.uv.x, hit.uv.y}}}});
         mSession.perform({"tool.choose", {{"name", "paint"}}});
         return;
     }
     const bool isShifted = (event.modifiers & GLFW_MOD_SHIFT) != 0;
-    const nlohmann::json place{{"position", toJson(hit->positionMm)},
-                               {"normal", toJson(hit->shadingNormal)}};
-    PaintState& paint = mSession.paint;
+    const nlohmann::json place{{"position", toJson(hit.positionMm)},
+                               {"normal", toJson(hit.shadingNormal)}};
+    mInverted = (event.modifiers & GLFW_MOD_CONTROL) != 0;
     if (paint.tool == Tool::Similar) {
         Command select{"select.similar", place};
         select.arguments["tolerance"] = paint.tolerance;
         select.arguments["mode"] = isShifted ? "add" : "replace";
-        mSession.activeMaterial = hit->material;
+        mSession.activeMaterial = hit.material;
         mSession.perform(select);
+        return;
+    }
+    if (paint.tool == Tool::Stamp) {
+        Command stamp{"stamp.place", place};
+        stamp.arguments["inverted"] = mInverted;
+        mSession.activeMaterial = hit.material;
+        mSession.perform(stamp);
+        return;
+    }
+    if (paint.tool == Tool::Scribble) {
+        mSession.activeMaterial = hit.material;
+        mDrag = Drag::Scribble;
+        mScribble.clear();
+        dragOverSurface(event.positionPx, rect);
+        return;
+    }
+    if (paint.tool == Tool::Paint && paint.op == PaintOperator::Gradient && isShifted) {
+        mDrag = Drag::Line;
+        mLineFrom = hit.positionMm;
         return;
     }
     const bool isCopying = paint.tool == Tool::Paint &&
@@ -228,10 +240,9 @@ void ViewportTools::pressTool(const InputEvent& event, const ViewportRect& rect)
     }
     if (isCopying) {
         paint.cloneTarget.emplace();
-        paint.cloneTarget->positionMm = glm::vec3(hit->positionMm);
-        paint.cloneTarget->normal = glm::vec3(hit->shadingNormal);
+        paint.cloneTarget->positionMm = glm::vec3(hit.positionMm);
+        paint.cloneTarget->normal = glm::vec3(hit.shadingNormal);
     }
-    mInverted = (event.modifiers & GLFW_MOD_CONTROL) != 0;
     mDrag = Drag::Paint;
     mPaintedPx = event.positionPx;
     mLastPoint.reset();
@@ -290,7 +301,7 @@ void ViewportTools::cancel() {
         mSession.paint.brush = mAdjust->brush;
         mAdjust.reset();
     }
-    if (mDrag == Drag::Paint) {
+    if (mDrag == Drag::Paint || mDrag == Drag::Scribble) {
         mSession.cancelStroke();
         mDrag = Drag::None;
     }
@@ -314,92 +325,89 @@ void ViewportTools::adjust(glm::dvec2 positionPx) {
     }
 }
 
-void ViewportTools::drawBrush(ImDrawList& list, const ViewportRect& rect, float scale) {
-    if (!mSession.services().isPaintable || mSession.paint.tool == Tool::Pick ||
-        mSession.paint.tool == Tool::Similar) {
-        return;
-    }
-    const glm::dvec2 at = mAdjust ? mAdjust->start : mCursor;
-    if ((mIsOverUi && mDrag != Drag::Paint) || !rect.contains(at) ||
-        (mDrag != Drag::None && mDrag != Drag::Paint)) {
-        return;
-    }
-    const std::optional<SurfacePoint> hit = pick(at, rect);
-    if (!hit || hit->material < 0) {
-        return;
-    }
-    const glm::dvec3 n = hit->shadingNormal;
-    const glm::dvec3 side = glm::normalize(
-        glm::cross(std::abs(n.y) < 0.9 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0), n));
-    const glm::dvec3 other = glm::cross(n, side);
-    const auto ring = [&](double radiusMm, ImU32 color, float width) {
-        // Each point is laid on the surface where that is near the tangent plane.
-        constexpr int kPoints = 48;
-        ImVec2 points[kPoints];
-        for (int i = 0; i < kPoints; ++i) {
-            const double angle = 2.0 * 3.14159265358979 * i / kPoints;
-            glm::dvec3 p =
-                hit->positionMm + radiusMm * (std::cos(angle) * side + std::sin(angle) * other);
-            const RayScene* const scene = rays();
-            const double reach = 0.35 * radiusMm;
-            const auto down = scene->nearest(p + reach * n, -n);
-            if (down && down->distanceMm < 2.0 * reach) {
-                p += (reach - down->distanceMm) * n;
-            }
-            const glm::dvec2 seen = seenAt(mSession.camera, p, rect);
-            points[i] = {static_cast<float>(seen.x), static_cast<float>(seen.y)};
-        }
-        list.AddPolyline(points, kPoints, color, ImDrawFlags_Closed, width);
-    };
-    const subedit::Brush& brush = mSession.paint.brush;
-    const double radius = static_cast<double>(brush.radiusMm);
-    ring(radius, IM_COL32(0, 0, 0, 120), 3.0f * scale);
-    ring(radius, IM_COL32(255, 255, 255, 220), 1.4f * scale);
-    if (brush.hardness > 0.02f && brush.hardness < 0.98f) {
-        ring(radius * static_cast<double>(brush.hardness), IM_COL32(255, 255, 255, 70),
-             1.0f * scale);
-    }
-}
-
 void ViewportTools::wheel(const InputEvent& event, const ViewportRect& rect) {
     mSession.perform({"camera.zoom",
                       {{"factor", std::pow(kZoomPerNotch, event.wheel)},
-                       {"point", toJson(pivot(event.positionPx, rect))}}});
+                       {"point", toJson(mPicker.pivot(event.positionPx, rect))}}});
+}
+
+std::optional<glm::dvec2> ViewportTools::brushPlace(const ViewportRect& rect) const {
+    if (!mSession.services().isPaintable) {
+        return std::nullopt;
+    }
+    if (mPretended) {
+        return glm::dvec2(rect.origin) + *mPretended * glm::dvec2(rect.size);
+    }
+    const glm::dvec2 at = mAdjust ? mAdjust->start : mCursor;
+    const bool isPainting = mDrag == Drag::Paint || mDrag == Drag::Scribble;
+    const bool isFree = mDrag == Drag::None && !mIsOverUi;
+    return rect.contains(at) && (isPainting || isFree) ? std::optional(at) : std::nullopt;
+}
+
+std::string ViewportTools::hint() const {
+    const PaintState& paint = mSession.paint;
+    const std::string size = fmt::format("{:.2f} mm", paint.brush.radiusMm);
+    const char* const dot = "   \xc2\xb7   ";
+    if (mAdjust) {
+        return mAdjust->what == Adjust::Radius
+                   ? fmt::format("Radius {}{}move sideways, click to keep, Esc to give up", size, dot)
+                   : fmt::format("Flow {:.0f} %{}move sideways, click to keep, Esc to give up",
+                                 100.0f * paint.brush.flow, dot);
+    }
+    switch (mDrag) {
+    case Drag::Orbit:
+        return "Turning the view";
+    case Drag::Pan:
+        return "Shifting the view";
+    case Drag::Zoom:
+        return "Zooming";
+    case Drag::Light:
+        return "Moving a light: it goes on aiming at the object";
+    case Drag::Line:
+        return "Drawing the line of the gradient";
+    default:
+        break;
+    }
+    if (!mSession.services().isPaintable) {
+        return "Left: turn   \xc2\xb7   Shift+middle: shift   \xc2\xb7   Wheel: zoom";
+    }
+    const char* const turn = "Middle: turn   \xc2\xb7   Wheel: zoom";
+    switch (paint.tool) {
+    case Tool::Select:
+        return fmt::format("Brush a selection, {}{}Ctrl: take away{}{}", size, dot, dot, turn);
+    case Tool::Similar:
+        return fmt::format("Click: select what looks like it{}Shift: add{}{}", dot, dot, turn);
+    case Tool::Pick:
+        return fmt::format("Click: take the profile there{}{}", dot, turn);
+    case Tool::Scribble:
+        return fmt::format("Scribble over what you mean{}Ctrl: over what stays{}then Apply{}{}",
+                           dot, dot, dot, turn);
+    case Tool::Stamp:
+        return paint.stamp.isSet()
+                   ? fmt::format("Click: stamp '{}', {} half wide{}{}", paint.stamp.name, size, dot,
+                                 turn)
+                   : std::string("Open an image to stamp, or drop one here");
+    case Tool::Paint:
+        break;
+    }
+    const PaintOperatorName& op = paintOperator(paint.op);
+    const bool isCopying = paint.op == PaintOperator::Clone || paint.op == PaintOperator::Pattern;
+    if (isCopying) {
+        return paint.cloneSource
+                   ? fmt::format("{}, {}{}Shift+click: another source{}{}", op.label, size, dot,
+                                 dot, turn)
+                   : fmt::format("{}: Shift+click where to copy from{}{}", op.label, dot, turn);
+    }
+    if (paint.op == PaintOperator::Gradient && paint.gradientFromMm == paint.gradientToMm) {
+        return fmt::format("Gradient: Shift+drag its line over the surface{}{}", dot, turn);
+    }
+    return op.inverse != nullptr
+               ? fmt::format("{}, {}{}Ctrl: {}{}{}", op.label, size, dot, op.inverse, dot, turn)
+               : fmt::format("{}, {}{}{}", op.label, size, dot, turn);
 }
 
 void ViewportTools::drawOverlay(ImDrawList& list, const ViewportRect& rect, float scale) {
-    if (!mSession.hasWorld()) {
-        return;
-    }
-    drawBrush(list, rect, scale);
-    const BoundingSphere& object = mSession.world().scatteringSphere;
-    for (std::size_t i = 0; i < mSession.rig.lights.size(); ++i) {
-        const RigLight& item = mSession.rig.lights[i];
-        const glm::dvec3 at = gizmoPosition(item.light, object);
-        if (projected(mSession.camera, at, rect.aspect()).z <= 0.0) {
-            continue;
-        }
-        const glm::dvec2 p = seenAt(mSession.camera, at, rect);
-        if (!rect.contains(p)) {
-            continue;
-        }
-        const glm::dvec3 c = item.light.color / std::max({item.light.color.x, item.light.color.y,
-                                                          item.light.color.z, 1e-9});
-        const bool isSelected = static_cast<int>(i) == mSession.selectedLight;
-        const ImU32 fill = ImGui::GetColorU32(
-            ImVec4(float(c.x), float(c.y), float(c.z), item.isOn ? 0.95f : 0.25f));
-        const ImU32 line = ImGui::GetColorU32(ImVec4(1.0f, 1.0f, 1.0f, isSelected ? 0.8f : 0.35f));
-        const ImVec2 center(static_cast<float>(p.x), static_cast<float>(p.y));
-        // The way of the light, a short line.
-        if (item.light.kind != Light::Kind::Point) {
-            const glm::dvec3 to = at + 0.22 * object.radius * item.light.direction;
-            const glm::dvec2 q = seenAt(mSession.camera, to, rect);
-            list.AddLine(center, {static_cast<float>(q.x), static_cast<float>(q.y)}, line,
-                         1.5f * scale);
-        }
-        list.AddCircleFilled(center, 5.0f * scale, fill, 20);
-        list.AddCircle(center, 8.0f * scale, line, 24, 1.5f * scale);
-    }
+    drawViewportOverlay(list, mSession, mPicker, brushPlace(rect), rect, scale);
 }
 
 } // namespace celadon::ui

@@ -1,12 +1,13 @@
 #pragma once
 
-#include "renderer/reference/ray_scene.h"
 #include "ui/session.h"
+#include "ui/surface_picker.h"
 #include "ui/viewport.h"
 #include "ui/window.h"
 
-#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 struct ImDrawList;
 
@@ -16,7 +17,7 @@ namespace celadon::ui {
 
 class ViewportTools {
 public:
-    explicit ViewportTools(Session& session) : mSession(session) {}
+    explicit ViewportTools(Session& session) : mSession(session), mPicker(session) {}
 
     /// @param overUi the cursor is on a panel, which takes what begins there
     void handle(const InputEvent& event, const ViewportRect& rect, bool overUi);
@@ -39,22 +40,31 @@ public:
     [[nodiscard]] glm::dvec2 cursor() const { return mCursor; }
 
     /// The surface under a window pixel; null beside the object.
-    [[nodiscard]] std::optional<SurfacePoint> pick(glm::dvec2 positionPx, const ViewportRect& rect);
+    [[nodiscard]] std::optional<SurfacePoint> pick(glm::dvec2 positionPx,
+                                                   const ViewportRect& rect) {
+        return mPicker.pick(positionPx, rect);
+    }
+    /// For scripts: the brush shows at this place of the viewport, (0,0) top left, whatever the
+    /// mouse does.
+    void pretend(glm::dvec2 place) { mPretended = place; }
+    /// What the mouse does now, in a few words; empty where it does nothing but turn the view.
+    [[nodiscard]] std::string hint() const;
 
 private:
-    enum class Drag { None, Orbit, Pan, Zoom, Light, Paint };
+    enum class Drag { None, Orbit, Pan, Zoom, Light, Paint, Scribble, Line };
 
     void press(const InputEvent& event, const ViewportRect& rect);
     void move(const InputEvent& event, const ViewportRect& rect);
     void wheel(const InputEvent& event, const ViewportRect& rect);
     [[nodiscard]] int lightAt(glm::dvec2 positionPx, const ViewportRect& rect) const;
-    [[nodiscard]] glm::dvec3 pivot(glm::dvec2 positionPx, const ViewportRect& rect);
-    const RayScene* rays();
     void pressTool(const InputEvent& event, const ViewportRect& rect);
     void paintTo(glm::dvec2 positionPx, const ViewportRect& rect);
     bool paintPoint(glm::dvec2 positionPx, const ViewportRect& rect);
     void adjust(glm::dvec2 positionPx);
-    void drawBrush(ImDrawList& list, const ViewportRect& rect, float scale);
+    void pressSurface(const SurfacePoint& hit, const InputEvent& event, const ViewportRect& rect);
+    void dragOverSurface(glm::dvec2 positionPx, const ViewportRect& rect);
+    void finishDrag();
+    [[nodiscard]] std::optional<glm::dvec2> brushPlace(const ViewportRect& rect) const;
 
     Session& mSession;
     Drag mDrag = Drag::None;
@@ -73,8 +83,10 @@ private:
         subedit::Brush brush;
     };
     std::optional<Adjusting> mAdjust;
-    std::shared_ptr<const World> mRayWorld; ///< of mRays, which refers to it
-    std::unique_ptr<RayScene> mRays;
+    SurfacePicker mPicker;
+    std::optional<glm::dvec2> mPretended;
+    std::vector<double> mScribble; ///< [x, y, z, nx, ny, nz] of each point
+    glm::dvec3 mLineFrom{0.0};     ///< of a gradient
 };
 
 } // namespace celadon::ui

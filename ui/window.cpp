@@ -29,6 +29,7 @@ GLFWwindow* createGlfwWindow(const std::string& title, glm::ivec2 size, bool vis
     glfwDefaultWindowHints();
     gl::setGlfwContextHints();
     glfwWindowHint(GLFW_VISIBLE, visible ? GLFW_TRUE : GLFW_FALSE);
+    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET); // and be told of it
     glfwWindowHint(GLFW_DEPTH_BITS, 0); // the window shows pictures only
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     GLFWwindow* const window = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, share);
@@ -48,6 +49,7 @@ Window::Window(const std::string& title, glm::ivec2 size, double scale) : mTitle
     gl::initializeGlfw();
     mWindow = createGlfwWindow(title, size, true, nullptr);
     mWorkerWindow = createGlfwWindow("Celadon renderer", {1, 1}, false, nullptr);
+    mJobsWindow = createGlfwWindow("Celadon jobs", {1, 1}, false, nullptr);
     glfwSetWindowSizeLimits(mWindow, kLeastSize, kLeastSize, GLFW_DONT_CARE, GLFW_DONT_CARE);
     mContext = gl::createWindowContext(mWindow);
     glfwSwapInterval(mContext->isSoftware() ? 0 : 1);
@@ -74,6 +76,7 @@ Window::~Window() {
     ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();
     mContext.reset();
+    glfwDestroyWindow(mJobsWindow);
     glfwDestroyWindow(mWorkerWindow);
     glfwDestroyWindow(mWindow);
 }
@@ -197,6 +200,10 @@ void Window::passKeys() {
 
 void Window::beginFrame() {
     mContext->makeCurrent();
+    if (glGetGraphicsResetStatus() != GL_NO_ERROR) {
+        throw ContextError("window", "the driver was reset, and the picture is lost",
+                           "start again: what was painted is offered for recovery");
+    }
     passKeys();
     if (mFontsStale) {
         loadFonts(mScale);

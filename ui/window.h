@@ -37,6 +37,8 @@ public:
     [[nodiscard]] GLFWwindow* handle() const { return mWindow; }
     /// A hidden window with a context for another thread; lives as long as this one.
     [[nodiscard]] GLFWwindow* workerWindow() const { return mWorkerWindow; }
+    /// Another one, for work in the background.
+    [[nodiscard]] GLFWwindow* jobsWindow() const { return mJobsWindow; }
     [[nodiscard]] gl::Context& context() { return *mContext; }
     /// Pixels of the frame buffer; zero while the window is minimized.
     [[nodiscard]] glm::ivec2 sizePx() const;
@@ -53,6 +55,7 @@ public:
     [[nodiscard]] std::vector<InputEvent> takeInput();
     [[nodiscard]] std::vector<std::filesystem::path> takeDroppedFiles();
 
+    /// @throws ContextError when the driver has lost the context (a reset)
     void beginFrame();
     /// Draws what ImGui was told; the back buffer can be read until present().
     void endFrame();
@@ -77,6 +80,7 @@ private:
 
     GLFWwindow* mWindow = nullptr;
     GLFWwindow* mWorkerWindow = nullptr;
+    GLFWwindow* mJobsWindow = nullptr;
     std::unique_ptr<gl::Context> mContext;
     float mScale = 1.0f;
     bool mFontsStale = true;

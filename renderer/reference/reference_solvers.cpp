@@ -118,6 +118,7 @@ std::vector<glm::vec3> ImageReferenceSolver::gather(const SolveInput& input,
     addFlux(patches, statistics);
     GatherOptions options;
     options.pointSamples = mPointSamples;
+    options.cancel = input.interrupt;
     GatherResult result = gatherExitance(exitPoints, patches, input.world.materials, options);
     statistics.samples.pairs = result.pairs;
     return std::move(result.exitance);

@@ -16,11 +16,23 @@ enum class ViewMode {
     Albedo = 4,
     Normals = 5,
     TextureCoordinates = 6,
+    // Pictures of their own (renderer/explain/), not made by this pass.
+    Irradiance = 7, ///< what a light sees, and its mips
+    Samples = 8,    ///< the samples that are taken of it, colored by level
+    Atlas = 9,      ///< the material's map with the charts of the surface
+    Difference = 10 ///< error against the truth, worked out in the background
 };
+
+/// Whether ViewModePass makes it.
+[[nodiscard]] constexpr bool isPerPixel(ViewMode mode) {
+    return mode != ViewMode::Picture && mode < ViewMode::Irradiance;
+}
 
 struct ViewModeSettings {
     ViewMode mode = ViewMode::Picture;
-    int level = 0;              ///< of ExitanceLevel
+    int level = 0;              ///< of ExitanceLevel, and the mip of Irradiance
+    int light = 0;              ///< of Irradiance and Samples, among those that are on
+    float distanceMm = 0.0f;    ///< of Samples: at which they are used
     float exposureEv = 0.0f;    ///< of both exitances
     float leastRadiusMm = 0.1f; ///< ends of the heat map
     float greatestRadiusMm = 10.0f;
@@ -30,7 +42,7 @@ class ViewModePass {
 public:
     ViewModePass(const gl::ShaderLibrary& shaders, int materialCount);
 
-    /// The frame and material blocks are bound. @param settings mode is not Picture
+    /// The frame and material blocks are bound. @param settings isPerPixel(mode)
     /// @return RGBA32F: linear display color, alpha 1 where a surface is seen; until the next call
     const gl::Texture& apply(const SplattingBuffer& view, const gl::Texture& exitance,
                              const ViewModeSettings& settings);

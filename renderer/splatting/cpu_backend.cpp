@@ -47,10 +47,7 @@ void CpuBackend::begin(const SolveInput& input) {
     };
 }
 
-void CpuBackend::buildTree(const LightView& lightView, const SolveInput& input) {
-    for (int i = 0; i < IrradianceBuffer::kTargets; ++i) {
-        read(mIrradiance.target(i), 0, mLight[static_cast<std::size_t>(i)]);
-    }
+LightTexels CpuBackend::lightTexels() const {
     LightTexels texels;
     texels.size = mIrradiance.size();
     texels.stride = mIrradiance.positions().size2d().x;
@@ -61,6 +58,14 @@ void CpuBackend::buildTree(const LightView& lightView, const SolveInput& input) 
     texels.covariances = mLight[4].data();
     texels.extents = mLight[5].data();
     texels.kepts = mLight[6].data();
+    return texels;
+}
+
+void CpuBackend::buildTree(const LightView& lightView, const SolveInput& input) {
+    for (int i = 0; i < IrradianceBuffer::kTargets; ++i) {
+        read(mIrradiance.target(i), 0, mLight[static_cast<std::size_t>(i)]);
+    }
+    const LightTexels texels = lightTexels();
     TreeSettings tree;
     tree.hierarchical = mSettings.scheme == Scheme::Hierarchical;
     tree.levels = mSettings.adaptive ? mSettings.irradianceLevels : 1;

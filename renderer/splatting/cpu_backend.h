@@ -25,6 +25,10 @@ public:
     [[nodiscard]] gl::Texture& exitance() override { return mExitance; }
     void count(FrameStats& statistics) override;
 
+    /// Of the last light view, for views that explain.
+    [[nodiscard]] const SampleTree& tree() const { return mTree; }
+    [[nodiscard]] LightTexels lightTexels() const;
+
 private:
     void buildTree(const LightView& lightView, const SolveInput& input);
 

@@ -3,6 +3,7 @@
 #include "renderer/exitance_solver.h"
 #include "renderer/gl/context.h"
 #include "renderer/splatting/accumulation.h"
+#include "renderer/splatting/cpu_backend.h"
 #include "renderer/splatting/raster_backend.h"
 #include "renderer/splatting/splat_backend.h"
 #include "renderer/splatting/splatting_settings.h"
@@ -38,6 +39,10 @@ public:
 
     /// The raster backend and its buffers, for tests and views that explain; else null.
     [[nodiscard]] RasterBackend* raster() { return dynamic_cast<RasterBackend*>(mBackend.get()); }
+    /// The cpu backend, for views that explain; else null.
+    [[nodiscard]] const CpuBackend* cpu() const {
+        return dynamic_cast<const CpuBackend*>(mBackend.get());
+    }
     /// Counts of samples and flux are gathered while solving; off by default since it reads back.
     void collectStatistics(bool on) { mCollect = on; }
 

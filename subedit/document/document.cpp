@@ -133,6 +133,8 @@ EditReport Document::execute(const EditCommand& command) {
             entry->mask = strokeMask(*stroke);
         } else if (const auto* spread = std::get_if<PropagateCommand>(&command)) {
             entry->mask = selected(propagate(*mMaterial, *mSurface, spread->propagation));
+        } else if (const auto* picture = std::get_if<StampCommand>(&command)) {
+            entry->mask = selected(stampMask(*mSurface, picture->stamp));
         } else {
             entry->mask = mSelection;
         }

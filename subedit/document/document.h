@@ -66,6 +66,7 @@ public:
     /// The same, for those who keep materials by pointer: it changes as the document is edited.
     [[nodiscard]] std::shared_ptr<const MaterialMap> materialPointer() const { return mMaterial; }
     [[nodiscard]] const Surface& surface() const { return *mSurface; }
+    [[nodiscard]] std::shared_ptr<const Surface> surfacePointer() const { return mSurface; }
     [[nodiscard]] const WeightMask& selection() const { return mSelection; }
 
     /// Does a whole command; what was undone before can no longer be redone.
@@ -91,6 +92,7 @@ public:
     [[nodiscard]] std::string redoTitle() const;
     /// Commands in effect, oldest first: replayed on the material as opened they give this one.
     [[nodiscard]] std::vector<EditCommand> commands() const;
+    [[nodiscard]] std::size_t commandCount() const { return mDone; }
 
     [[nodiscard]] DocumentChanges takeChanges();
 

@@ -22,6 +22,9 @@ std::string commandTitle(const EditCommand& command) {
     if (std::holds_alternative<StrokeCommand>(command)) {
         return name + " stroke";
     }
+    if (std::holds_alternative<StampCommand>(command)) {
+        return name + " stamp";
+    }
     return std::holds_alternative<PropagateCommand>(command) ? "propagate " + name : name;
 }
 

@@ -3,6 +3,7 @@
 #include "subedit/edit/edit_operator.h"
 #include "subedit/paint/brush.h"
 #include "subedit/select/selection.h"
+#include "subedit/select/stamp.h"
 
 #include <string>
 #include <variant>
@@ -35,6 +36,13 @@ struct PropagateCommand {
     bool operator==(const PropagateCommand&) const = default;
 };
 
+/// An operator as a picture says that is laid onto the surface, and where selected.
+struct StampCommand {
+    EditOperator op;
+    Stamp stamp;
+    bool operator==(const StampCommand&) const = default;
+};
+
 /// Changes the selection, and no texel.
 struct SelectCommand {
     SelectionStep step;
@@ -42,7 +50,8 @@ struct SelectCommand {
     bool operator==(const SelectCommand&) const = default;
 };
 
-using EditCommand = std::variant<ApplyCommand, StrokeCommand, PropagateCommand, SelectCommand>;
+using EditCommand =
+    std::variant<ApplyCommand, StrokeCommand, PropagateCommand, StampCommand, SelectCommand>;
 
 /// The operator of a command; null for a selection.
 [[nodiscard]] const EditOperator* operatorOf(const EditCommand& command);

@@ -1,5 +1,6 @@
 #include "subedit/document/stroke_file.h"
 
+#include "subedit/document/hex_text.h"
 #include "subedit/document/json_reader.h"
 #include "subedit/errors.h"
 #include "subedit/fit/profile_fit.h"
@@ -73,8 +74,8 @@ public:
     }
 
     EditCommand command(const json& value, const std::string& pointer) const {
-        constexpr std::array<std::string_view, 4> kCommands{"apply", "stroke", "propagate",
-                                                            "select"};
+        constexpr std::array<std::string_view, 5> kCommands{"apply", "stroke", "propagate",
+                                                            "stamp", "select"};
         const JsonReader in(mSubject, value, pointer);
         EditCommand result;
         switch (in.choice("command", kCommands, "command")) {
@@ -87,6 +88,9 @@ public:
             break;
         case 2:
             result = PropagateCommand{readOperator(in.object("operator")), propagation(in)};
+            break;
+        case 3:
+            result = StampCommand{readOperator(in.object("operator")), stamp(in)};
             break;
         default:
             result = selection(in);
@@ -279,6 +283,26 @@ private:
         if (in.has("distanceMm")) {
             result.distanceMm = in.number("distanceMm", kLengthMm);
         }
+        return result;
+    }
+
+    Stamp stamp(const JsonReader& in) const {
+        Stamp result;
+        result.at = place(in.object("at"));
+        result.widthMm = in.number("widthMm", kLengthMm);
+        result.angleDegrees = in.number("angleDegrees", {-360.0, 360.0}, 0.0f);
+        const glm::vec2 pixels = in.vec2("pixels", {1.0, kLargestStamp});
+        result.width = static_cast<int>(pixels.x);
+        result.height = static_cast<int>(pixels.y);
+        if (glm::vec2(result.width, result.height) != pixels) {
+            in.fail("pixels", "are not whole numbers");
+        }
+        std::optional<std::vector<std::uint8_t>> weights = parseHex(in.text("weights"));
+        if (!weights || weights->size() != static_cast<std::size_t>(result.width) *
+                                               static_cast<std::size_t>(result.height)) {
+            in.fail("weights", "are not two hexadecimal digits for each pixel");
+        }
+        result.weights = std::move(*weights);
         return result;
     }
 
@@ -505,6 +529,15 @@ struct CommandWriter {
         out["command"] = "propagate";
         out["operator"] = toJson(c.op);
         addPropagation(out, c.propagation);
+    }
+    void operator()(const StampCommand& c) const {
+        out["command"] = "stamp";
+        out["operator"] = toJson(c.op);
+        out["at"] = toJson(c.stamp.at);
+        out["widthMm"] = wide(c.stamp.widthMm);
+        out["angleDegrees"] = wide(c.stamp.angleDegrees);
+        out["pixels"] = json::array({c.stamp.width, c.stamp.height});
+        out["weights"] = hexText(c.stamp.weights);
     }
     void operator()(const SelectCommand& c) const {
         out["command"] = "select";

@@ -25,6 +25,8 @@ public:
     [[nodiscard]] int height() const { return mAtlas.height; }
     [[nodiscard]] std::size_t texelCount() const { return mAtlas.chart.size(); }
     [[nodiscard]] bool isCovered(Texel texel) const { return mAtlas.chart[texel] >= 0; }
+    /// -1: not covered.
+    [[nodiscard]] std::int32_t chartOf(Texel texel) const { return mAtlas.chart[texel]; }
     [[nodiscard]] const glm::vec3& positionMm(Texel texel) const {
         return mAtlas.positionMm[texel];
     }

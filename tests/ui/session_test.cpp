@@ -1,4 +1,6 @@
+#include "renderer/output/image_io.h"
 #include "renderer/scene/builtin.h"
+#include "renderer/scene/load_scene.h"
 #include "subedit/errors.h"
 #include "subedit/map/material_convert.h"
 #include "subedit/map/material_file.h"
@@ -26,9 +28,13 @@ World readBall(const OpenRequest& request) {
                       {std::nullopt, 40.0});
 }
 
+nlohmann::json describe(const subedit::MaterialMap& map, const std::string& reference) {
+    return {{"name", map.name}, {"extras", {{"subedit", reference}}}};
+}
+
 class SessionTest : public testing::Test {
 protected:
-    SessionTest() : session({readBall, true}) {
+    SessionTest() : session({readBall, describe, true}) {
         session.dispatcher().observe(
             [this](const Command& command) { recorded.push_back(command); });
         session.execute({"file.open", {{"model", "ball"}}});
@@ -106,7 +112,7 @@ TEST_F(SessionTest, ReplayWritesTheSameFileByteForByte) {
     session.execute({"file.save", {{"file", first}}});
     EXPECT_FALSE(session.isModified());
 
-    Session other({readBall, true});
+    Session other({readBall, describe, true});
     const auto second = (folder / "second.subedit.exr").string();
     for (Command command : recorded) {
         command = parseCommand(formatCommand(command));
@@ -165,6 +171,141 @@ TEST_F(SessionTest, ProfileKeepsItsRangeWhenItsAlbedoChanges) {
     // A knot that would send back more light than came in is held at albedo 1.
     session.execute({"profile.knot", {{"channel", 0}, {"knot", 3}, {"log", 5.0}}});
     EXPECT_LE(subedit::diffuseAlbedo(session.paint.primary.profile.view()).r, 1.0);
+}
+
+/// At a place of the ball, as a click sends it.
+nlohmann::json placeAt(const Session& session, const glm::vec3& direction) {
+    const glm::dvec3 n(glm::normalize(direction));
+    return {{"position", toJson(session.world().scatteringSphere.center + 20.0 * n)},
+            {"normal", toJson(n)}};
+}
+
+/// A picture of which the left half is white.
+std::filesystem::path writeHalfWhite(const std::filesystem::path& file) {
+    FloatImage image{8, 8, {"R", "G", "B"}, {}};
+    for (int i = 0; i < 64; ++i) {
+        image.pixels.insert(image.pixels.end(), 3, i % 8 < 4 ? 1.0f : 0.0f);
+    }
+    writeDisplayImage(file, image);
+    return file;
+}
+
+TEST_F(SessionTest, StampFollowsItsPictureAndReachesNoFarther) {
+    const test::TemporaryFolder folder;
+    session.execute({"stamp.open", {{"file", writeHalfWhite(folder / "half.png").string()}}});
+    EXPECT_EQ(session.paint.tool, Tool::Stamp);
+    session.execute({"brush.change", {{"radius", 4.0}}});
+    session.execute({"operator.change", {{"name", "scale-albedo"}}});
+    const std::vector<float> before = map().logProfile;
+    session.execute({"stamp.place", placeAt(session, {0.0f, 0.0f, 1.0f})});
+    const subedit::Surface& surface = session.activeDocument()->surface();
+    const std::size_t values = static_cast<std::size_t>(map().knots()) * 3;
+    const glm::vec3 center(session.world().scatteringSphere.center);
+    std::size_t left = 0;
+    for (const subedit::Surface::Texel texel : surface.coveredTexels()) {
+        const bool isChanged =
+            std::memcmp(&before[texel * values], &map().logProfile[texel * values],
+                        values * sizeof(float)) != 0;
+        const glm::vec3 p = surface.positionMm(texel) - center;
+        // Seen from +z with +y up, the left half is x < 0; bilinear filtering reaches half a pixel.
+        const bool isInside = p.z > 0.0f && p.x < 0.51f && p.x > -4.51f && std::abs(p.y) < 4.51f;
+        EXPECT_FALSE(isChanged && !isInside) << p.x << ' ' << p.y << ' ' << p.z;
+        left += isChanged ? 1 : 0;
+    }
+    EXPECT_GT(left, 200u);
+    session.execute({"edit.undo"});
+    EXPECT_EQ(map().logProfile, before);
+}
+
+TEST_F(SessionTest, ScribblesSpreadToWhatResemblesThem) {
+    // Half of the ball becomes another profile; a scribble there must leave the rest alone.
+    session.execute({"brush.change", {{"radius", 14.0}, {"hardness", 1.0}}});
+    session.execute({"operator.change", {{"name", "profile"}}});
+    subedit::StrokePoint point;
+    point.normal = {0.0f, 0.0f, 1.0f};
+    point.positionMm = glm::vec3(session.world().scatteringSphere.center) + 20.0f * point.normal;
+    session.beginStroke(0, point, false);
+    session.endStroke();
+    const std::vector<float> before = map().logProfile;
+    session.execute({"brush.change", {{"radius", 3.0}}});
+    session.execute({"operator.change", {{"name", "scale-albedo"}, {"albedoFactor", 0.5}}});
+    const nlohmann::json place = placeAt(session, {0.0f, 0.0f, 1.0f});
+    std::vector<double> path = place["position"];
+    for (const double n : place["normal"]) {
+        path.push_back(n);
+    }
+    EXPECT_FALSE(session.perform({"scribble.apply"})); // there is none yet
+    session.execute({"scribble.add", {{"path", path}, {"strength", 1.0}}});
+    session.execute({"scribble.change", {{"similarity", 0.05}, {"distance", 0.0}}});
+    session.execute({"scribble.apply", {{"select", false}}});
+    const subedit::Surface& surface = session.activeDocument()->surface();
+    const std::size_t values = static_cast<std::size_t>(map().knots()) * 3;
+    std::size_t changedNear = 0, near = 0, changedFar = 0;
+    for (const subedit::Surface::Texel texel : surface.coveredTexels()) {
+        const glm::vec3 p = surface.positionMm(texel) - point.positionMm;
+        const bool isChanged = map().logProfile[texel * values] != before[texel * values];
+        if (glm::length(p) < 12.0f) {
+            ++near;
+            changedNear += isChanged ? 1 : 0;
+        } else if (glm::length(p) > 16.0f) {
+            changedFar += isChanged ? 1 : 0;
+        }
+    }
+    EXPECT_GT(near, 1000u);
+    EXPECT_EQ(changedNear, near);
+    EXPECT_EQ(changedFar, 0u);
+}
+
+TEST_F(SessionTest, GradientNeedsItsLineAndRunsAlongIt) {
+    session.execute({"operator.change", {{"name", "gradient"}}});
+    EXPECT_FALSE(session.perform({"edit.fill"}));
+    EXPECT_FALSE(session.isModified());
+    const glm::dvec3 center = session.world().scatteringSphere.center;
+    session.execute({"gradient.line",
+                     {{"from", toJson(center - glm::dvec3(15.0, 0.0, 0.0))},
+                      {"to", toJson(center + glm::dvec3(15.0, 0.0, 0.0))}}});
+    session.execute({"edit.fill"});
+    const subedit::Surface& surface = session.activeDocument()->surface();
+    const glm::dvec3 first = subedit::diffuseAlbedo(session.paint.primary.profile.view());
+    const glm::dvec3 last = subedit::diffuseAlbedo(session.paint.secondary.profile.view());
+    for (const subedit::Surface::Texel texel : surface.coveredTexels()) {
+        const double x = static_cast<double>(surface.positionMm(texel).x) - center.x;
+        if (std::abs(x) > 16.0) {
+            const auto width = static_cast<std::size_t>(map().width);
+            const glm::dvec3 albedo = subedit::diffuseAlbedo(
+                storedProfile(map(), int(texel % width), int(texel / width)).view());
+            EXPECT_LT(glm::distance(albedo, x < 0.0 ? first : last), 0.02);
+        }
+    }
+}
+
+TEST_F(SessionTest, ExportCanBeOpenedAgainWithTheSameMaterial) {
+    paintStroke();
+    const test::TemporaryFolder folder;
+    const auto file = folder / "ball.gltf";
+    session.execute({"file.export", {{"file", file.string()}}});
+    const Scene scene = loadScene(file.string());
+    ASSERT_TRUE(scene.materials.front().subedit);
+    const subedit::MaterialMap read = subedit::readMaterial(*scene.materials.front().subedit);
+    EXPECT_EQ(read.logProfile, map().logProfile);
+    EXPECT_EQ(scene.meshes.front().indices, session.world().meshes.front().mesh.indices);
+    EXPECT_FALSE(session.perform({"file.export", {{"file", "/nowhere/ball.gltf"}}}));
+}
+
+TEST_F(SessionTest, TurntableTurnsLightsWithTheCamera) {
+    const auto seen = [this] { // the light's direction as the camera has it
+        const CameraFrame frame = cameraFrame(session.camera);
+        const glm::dvec3 d = session.rig.lights.front().light.direction;
+        return glm::dvec3(glm::dot(d, frame.right), glm::dot(d, frame.up),
+                          glm::dot(d, frame.forward));
+    };
+    const glm::dvec3 before = seen();
+    const glm::dvec3 eye = session.camera.eye;
+    session.execute({"camera.turntable", {{"degrees", 77.0}}});
+    EXPECT_LT(glm::distance(before, seen()), 1e-9);
+    EXPECT_GT(glm::distance(eye, session.camera.eye), 1.0);
+    session.execute({"camera.turntable", {{"degrees", -77.0}}});
+    EXPECT_LT(glm::distance(eye, session.camera.eye), 1e-9);
 }
 
 TEST_F(SessionTest, EveryCommandHasASummary) {

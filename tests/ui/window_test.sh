@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# The editor in a real window, by real mouse and key events: window_test.sh PROGRAM FOLDER
+# The editor in a real window, by real mouse and key events:
+#   window_test.sh PROGRAM STROKE_REGION FOLDER
 # Waits on the editor's state file (--state), never on time alone. Exit code 77: cannot run here.
 set -u
 program=$1
-folder=$2
+strokeRegion=$2
+folder=$3
 
 for tool in Xvfb xdotool; do
     command -v "$tool" >/dev/null || { echo "skipped: $tool is missing"; exit 77; }
@@ -12,6 +14,10 @@ done
 rm -rf "$folder"
 mkdir -p "$folder/config" "$folder/state"
 export XDG_CONFIG_HOME=$folder/config XDG_STATE_HOME=$folder/state
+export XDG_CACHE_HOME=$folder/cache XDG_DATA_HOME=$folder/data
+model=builtin:sphere
+bunny=${CELADON_MODELS:-}/mesh/bunny_watertight_60k.obj
+[ -f "$bunny" ] && model=$bunny
 unset WAYLAND_DISPLAY
 state=$folder/state.json
 editor=
@@ -43,7 +49,7 @@ await() {
 
 start() { # start ARGUMENTS: until the first picture is there
     rm -f "$state"
-    "$program" edit builtin:sphere --size 900x600 --quality draft --state "$state" "$@" 2>"$folder/stderr" &
+    "$program" edit "$model" --size 900x600 --quality draft --state "$state" "$@" 2>"$folder/stderr" &
     editor=$!
     await 60 '"open":true'
     await 60 '"rung":[0-9]'
@@ -64,8 +70,12 @@ DISPLAY=:$(cat "$folder/display")
 export DISPLAY
 [ "$DISPLAY" != ":" ] || { echo "skipped: no X server"; exit 77; }
 
-# A stroke, undo, redo, save, close.
+# A stroke, undo, redo, save, close. What is saved differs exactly where the stroke was.
 start --record "$folder/record.jsonl"
+printf '{"command":"file.save","file":"%s"}\n' "$folder/before.subedit.exr" >"$folder/save.jsonl"
+"$program" edit "$model" --size 400x300 --quality draft --replay "$folder/save.jsonl" \
+    --exit-after-replay 2>"$folder/stderr" || fail "saving at once ended with $?"
+xdotool key x # the secondary profile: another r_s is not needed
 stroke
 await 30 '"strokes":1'
 await 30 '"modified":true'
@@ -85,14 +95,17 @@ wait "$editor" || fail "the editor ended with $?"
 editor=
 ls "$folder"/state/celadon/*.journal >/dev/null 2>&1 && fail "the journal was left behind"
 grep -q '"command":"paint.edit"' "$folder/record.jsonl" || fail "the stroke was not recorded"
+"$strokeRegion" "$model" "$folder/record.jsonl" "$folder/before.subedit.exr" \
+    "$folder/painted.subedit.exr" || fail "the material differs elsewhere than under the stroke"
 
 # The same commands give the same bytes, in another window.
 sed "s|painted.subedit.exr|replayed.subedit.exr|" "$folder/record.jsonl" | grep -v file.open >"$folder/replay.jsonl"
-"$program" edit builtin:sphere --size 500x400 --quality draft --replay "$folder/replay.jsonl" \
+"$program" edit "$model" --size 500x400 --quality draft --replay "$folder/replay.jsonl" \
     --exit-after-replay 2>"$folder/stderr" || fail "the replay ended with $?: $(cat "$folder/stderr")"
 cmp "$folder/painted.subedit.exr" "$folder/replayed.subedit.exr" || fail "the replay painted something else"
 
 # Killed in the middle of a stroke: what was finished comes back.
+model=builtin:sphere
 start
 stroke
 await 30 '"strokes":1'
@@ -117,4 +130,59 @@ await 30 '"asking":true'
 xdotool key Escape
 await 30 '"asking":false'
 kill -0 "$editor" || fail "Escape closed the editor"
+
+# The window goes away and comes back; a broken file is refused in a notice; the work stays.
+xdotool windowunmap "$window" windowmap "$window"
+printf 'v 0 0 0\nf 1 2 3\n' >"$folder/broken.obj"
+xdotool key ctrl+o
+await 30 '"asking":true'
+xdotool type --delay 20 "$folder/broken.obj"
+xdotool key Return
+await 30 '"asking":true' # unsaved changes
+xdotool key Tab Tab
+xdotool key Escape
+await 30 '"asking":false'
+await 30 '"strokes":1'
+kill -9 "$editor"
+wait "$editor" 2>/dev/null
+editor=
+rm -f "$folder"/state/celadon/*.journal
+
+# A full disk (a limit on the size of files, which fails alike): a notice, and nothing is lost.
+(
+    trap '' XFSZ
+    ulimit -f 64
+    exec "$program" edit "$model" --size 900x600 --quality draft --state "$state" 2>"$folder/stderr"
+) &
+editor=$!
+rm -f "$state"
+await 60 '"rung":[0-9]'
+stroke
+await 30 '"strokes":1'
+xdotool key ctrl+s
+await 30 '"asking":true'
+xdotool type --delay 20 "$folder/full.subedit.exr"
+xdotool key Return
+await 30 '"asking":false'
+await 30 'full.subedit.exr'
+await 5 '"modified":true'
+[ -e "$folder/full.subedit.exr" ] && fail "half a file was left behind"
+kill -9 "$editor"
+wait "$editor" 2>/dev/null
+editor=
+
+# Broken files that are dropped, a turntable, an export: by replay.
+printf '%s\n' '{"command":"edit.fill"}' \
+    "{\"command\":\"file.save\",\"file\":\"$folder/whole.subedit.exr\"}" \
+    "{\"command\":\"window.drop\",\"file\":\"$folder/broken.obj\"}" \
+    "{\"command\":\"export.turntable\",\"file\":\"$folder/turn.png\",\"frames\":3,\"size\":[96,64]}" \
+    "{\"command\":\"file.export\",\"file\":\"$folder/exported.gltf\"}" >"$folder/drops.jsonl"
+"$program" edit "$model" --size 500x400 --quality draft --replay "$folder/drops.jsonl" \
+    --screenshot "$folder/drops.png" --exit-after-replay 2>"$folder/stderr" ||
+    fail "the replay of drops ended with $?: $(cat "$folder/stderr")"
+for file in turn_0001.png turn_0002.png turn_0003.png exported.gltf exported.bin \
+    exported.subedit.exr drops.png; do
+    [ -s "$folder/$file" ] || fail "$file is missing"
+done
+"$program" info "$folder/exported.gltf" >/dev/null || fail "the export cannot be read"
 echo "passed in $SECONDS s"

@@ -17,19 +17,89 @@ void change(Session& session, const char* command, const char* name, double valu
     session.perform({command, {{name, value}}});
 }
 
+constexpr std::array<const char*, 6> kToolLabels{"Paint",   "Select",   "Similar",
+                                                 "Pick",    "Scribble", "Stamp"};
+constexpr std::array<const char*, 6> kToolWords{"paint",   "select",   "similar",
+                                                "pick",    "scribble", "stamp"};
+constexpr std::array<const char*, 6> kToolHelps{
+    "Strokes apply the operator (B)",
+    "Strokes add to the selection; with Ctrl they take away (M)",
+    "A click selects what has a profile like the one there; with Shift it adds",
+    "A click takes the profile there as primary (S)",
+    "Rough strokes over what you mean, with Ctrl over what is to stay: the operator spreads to all "
+    "that resembles them",
+    "A click applies the operator as a picture says: white all, black nothing"};
+
 void drawTools(Session& session) {
-    constexpr std::array<const char*, 4> kLabels{"Paint", "Select", "Similar", "Pick"};
-    constexpr std::array<const char*, 4> kWords{"paint", "select", "similar", "pick"};
-    constexpr std::array<const char*, 4> kHelps{
-        "Strokes apply the operator (B)",
-        "Strokes add to the selection; with Ctrl they take away (M)",
-        "A click selects what has a profile like the one there; with Shift it adds",
-        "A click takes the profile there as primary (S)"};
-    const int tool =
-        choiceRow("tools", kLabels.data(), kHelps.data(), 4, static_cast<int>(session.paint.tool));
-    if (tool >= 0) {
-        session.perform({"tool.choose", {{"name", kWords[static_cast<std::size_t>(tool)]}}});
+    const int current = static_cast<int>(session.paint.tool);
+    constexpr int kPerRow = 3;
+    for (int row = 0; row < 2; ++row) {
+        const auto first = static_cast<std::size_t>(row * kPerRow);
+        const int tool = choiceRow(row == 0 ? "tools" : "more tools", kToolLabels.data() + first,
+                                   kToolHelps.data() + first, kPerRow, current - row * kPerRow);
+        if (tool >= 0) {
+            const std::size_t which = first + static_cast<std::size_t>(tool);
+            session.perform({"tool.choose", {{"name", kToolWords[which]}}});
+        }
     }
+}
+
+void drawScribbles(Session& session) {
+    if (session.paint.tool != Tool::Scribble) {
+        return;
+    }
+    heading("Propagation");
+    const subedit::Propagation& propagation = session.paint.propagation;
+    if (propagation.scribbles.empty()) {
+        hint("Scribble on the model. Texels like those under a scribble will get the operator.");
+    }
+    float similarity = propagation.similarity;
+    if (sliderField("Similarity", similarity, 0.01f, 0.5f, "%.3f",
+                    "Difference of profiles at which the effect has fallen to 1/e", true)) {
+        change(session, "scribble.change", "similarity", static_cast<double>(similarity));
+    }
+    const auto most = static_cast<float>(2.0 * session.world().scatteringSphere.radius);
+    float distance = propagation.distanceMm.value_or(0.0f);
+    if (sliderField("Distance", distance, 0.0f, most, distance > 0.0f ? "%.1f mm" : "any",
+                    "Distance in space at which the effect has fallen to 1/e, mm; 0: anywhere")) {
+        change(session, "scribble.change", "distance", static_cast<double>(distance));
+    }
+    constexpr std::array<const char*, 3> kLabels{"Apply", "Select", "Clear"};
+    constexpr std::array<const char*, 3> kHelps{
+        "Spreads the operator above from the scribbles", "Selects what they spread to",
+        "Takes the scribbles away"};
+    ImGui::BeginDisabled(propagation.scribbles.empty());
+    const int clicked = choiceRow("spread", kLabels.data(), kHelps.data(), 3, -1);
+    ImGui::EndDisabled();
+    if (clicked == 2) {
+        session.perform({"scribble.clear"});
+    } else if (clicked >= 0 && session.perform({"scribble.apply", {{"select", clicked == 1}}})) {
+        session.perform({"scribble.clear"});
+    }
+}
+
+void drawStamp(const LayoutContext& context) {
+    Session& session = context.session;
+    if (session.paint.tool != Tool::Stamp) {
+        return;
+    }
+    heading("Stamp");
+    const StampImage& stamp = session.paint.stamp;
+    if (ImGui::Button(stamp.isSet() ? "Another image\xe2\x80\xa6" : "Open an image\xe2\x80\xa6",
+                      {-1.0f, 0.0f})) {
+        context.actions.openStamp();
+    }
+    tooltip("PNG, JPEG, TIFF or EXR; one can be dropped on the window, too");
+    if (stamp.isSet()) {
+        readout("Image", fmt::format("{}, {}\xc3\x97{}", stamp.name, stamp.width, stamp.height),
+                "As stamped: at most 192 pixels a side");
+    }
+    float angle = session.paint.stampAngleDegrees;
+    if (sliderField("Angle", angle, -180.0f, 180.0f, "%.0f\xc2\xb0",
+                    "Counter-clockwise, in degrees; 0: its top is up")) {
+        change(session, "stamp.change", "angle", static_cast<double>(angle));
+    }
+    hint("Its width is twice the brush radius.");
 }
 
 void drawSelection(Session& session) {
@@ -90,16 +160,37 @@ void drawOperators(Session& session) {
     }
 }
 
+/// What Clone, Pattern and Gradient need besides.
+void drawPlaces(Session& session) {
+    const PaintState& paint = session.paint;
+    const bool isPattern = paint.op == PaintOperator::Pattern;
+    if (paint.op == PaintOperator::Gradient && paint.gradientFromMm == paint.gradientToMm) {
+        hint("Shift+drag over the model draws the line that it runs along.");
+    }
+    if (paint.op != PaintOperator::Clone && !isPattern) {
+        return;
+    }
+    hint(paint.cloneSource ? "Paint: the place you chose comes to where the stroke begins."
+                           : "Shift+click on the model: where to copy from.");
+    float angle = paint.copyAngleDegrees;
+    if (sliderField("Angle", angle, -180.0f, 180.0f, "%.0f\xc2\xb0",
+                    "By which what is copied is turned, counter-clockwise, in degrees")) {
+        change(session, "operator.change", "angle", static_cast<double>(angle));
+    }
+    float strength = 100.0f * paint.patternStrength;
+    if (isPattern && sliderField("Strength", strength, 0.0f, 400.0f, "%.0f %%",
+                                 "Of the pattern: 100 % is as it was there")) {
+        change(session, "operator.change", "strength", static_cast<double>(strength) / 100.0);
+    }
+}
+
 void drawParameters(Session& session) {
     PaintState& paint = session.paint;
-    switch (paint.op) {
-    case PaintOperator::Profile:
-    case PaintOperator::Shape:
+    if (paint.op == PaintOperator::Profile || paint.op == PaintOperator::Shape ||
+        paint.op == PaintOperator::Gradient) {
         drawProfilePair(session);
-        break;
-    default:
-        break;
     }
+    drawPlaces(session);
     if (paint.op == PaintOperator::ScaleAlbedo) {
         float factor = paint.albedoFactor;
         if (sliderField("Factor", factor, 0.25f, 4.0f, "\xc3\x97 %.2f",
@@ -134,10 +225,6 @@ void drawParameters(Session& session) {
                         "Neighborhood on the surface that differences are taken from, mm", true)) {
             change(session, "operator.change", "neighborhood", static_cast<double>(radius));
         }
-    }
-    if (paint.op == PaintOperator::Clone || paint.op == PaintOperator::Pattern) {
-        hint(paint.cloneSource ? "Paint: the place you chose comes to where the stroke begins."
-                               : "Shift+click on the surface: where to copy from.");
     }
     if (paint.op == PaintOperator::SetRange) {
         constexpr std::array<const char*, 3> kNames{"Red", "Green", "Blue"};
@@ -230,7 +317,8 @@ void drawHistory(Session& session) {
 
 } // namespace
 
-void drawBrushPanel(Session& session) {
+void drawBrushPanel(const LayoutContext& context) {
+    Session& session = context.session;
     if (session.activeDocument() == nullptr) {
         hint(session.services().isPaintable ? "There is no material to paint on."
                                             : "The editor was started with --view-only.");
@@ -239,10 +327,14 @@ void drawBrushPanel(Session& session) {
     drawTools(session);
     drawOperators(session);
     drawParameters(session);
-    if (ImGui::Button("Fill", {-1.0f, 0.0f})) {
-        session.perform({"edit.fill"});
+    drawScribbles(session);
+    drawStamp(context);
+    if (session.paint.tool != Tool::Scribble) {
+        if (ImGui::Button("Fill", {-1.0f, 0.0f})) {
+            session.perform({"edit.fill"});
+        }
+        tooltip("Applies the operator to all that is selected");
     }
-    tooltip("Applies the operator to all that is selected");
     drawBrush(session);
     drawSelection(session);
     drawHistory(session);

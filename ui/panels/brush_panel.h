@@ -1,10 +1,10 @@
 #pragma once
 
-#include "ui/session.h"
+#include "ui/layout_state.h"
 
 namespace celadon::ui {
 
-/// Tool, operator, brush, undo.
-void drawBrushPanel(Session& session);
+/// Tools, operators and their parameters, the brush, the selection, undo and redo.
+void drawBrushPanel(const LayoutContext& context);
 
 } // namespace celadon::ui

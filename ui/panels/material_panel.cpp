@@ -1,11 +1,16 @@
 #include "ui/panels/material_panel.h"
 
-#include "subedit/map/shipped_materials.h"
+#include "ui/material_library.h"
 #include "ui/theme.h"
+#include "ui/user_folders.h"
 #include "ui/widgets/fields.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cstdint>
 
 namespace celadon::ui {
 
@@ -17,7 +22,7 @@ void drawCurrent(Session& session) {
         return;
     }
     const subedit::MaterialMap& map = document->material();
-    heading(map.name.empty() ? "Material" : map.name.c_str());
+    heading(map.name.empty() ? "Material" : materialLabel(map.name).c_str());
     if (session.materialCount() > 1) {
         for (int i = 0; i < session.materialCount(); ++i) {
             const subedit::Document* const other = session.document(i);
@@ -38,21 +43,109 @@ void drawCurrent(Session& session) {
             "Median distance of neighboring texels on the surface, mm");
 }
 
+void drawSaving(const LayoutContext& context) {
+    if (context.session.activeDocument() == nullptr) {
+        return;
+    }
+    std::string& name = context.state.newName;
+    const float button = 92.0f * context.scale;
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - gap);
+    const bool isEntered = ImGui::InputTextWithHint("##new", "Name of a new material", &name,
+                                                    ImGuiInputTextFlags_EnterReturnsTrue);
+    tooltip("Keeps what is painted among your own materials, below");
+    ImGui::SameLine(0.0f, gap);
+    const bool isName = !name.empty() && name.find('/') == std::string::npos;
+    ImGui::BeginDisabled(!isName);
+    if ((ImGui::Button("Save as new", {button, 0.0f}) || isEntered) && isName) {
+        context.actions.saveAsNew(name);
+        name.clear();
+    }
+    ImGui::EndDisabled();
+    tooltip((dataFolder() / "materials").c_str());
+}
+
+/// The folders are read again now and then, as others may write there.
+const MaterialLibrary& currentLibrary(const LayoutContext& context) {
+    constexpr double kSeconds = 2.0;
+    LayoutState& state = context.state;
+    if (ImGui::GetTime() > state.libraryReadAt + kSeconds) {
+        state.libraryReadAt = ImGui::GetTime();
+        state.library =
+            findMaterials(dataFolder() / "materials", context.preferences.recentMaterials);
+        context.thumbnails.refresh();
+    }
+    return state.library;
+}
+
+void drawCard(const LayoutContext& context, const LibraryMaterial& material, float side) {
+    ImGui::PushID(material.file.c_str());
+    ImGui::BeginGroup();
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::InvisibleButton("##card", {side, side});
+    const bool isHovered = ImGui::IsItemHovered();
+    if (ImGui::IsItemClicked()) {
+        context.session.perform(
+            {"profile.medium", {{"which", "primary"}, {"name", material.nameOrPath}}});
+    }
+    if (isHovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+        context.actions.putOn(material.nameOrPath);
+    }
+    tooltip(material.file.c_str());
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 end(at.x + side, at.y + side);
+    const float rounding = ImGui::GetStyle().FrameRounding;
+    if (const gl::Texture* const picture = context.thumbnails.find(material.file)) {
+        list.AddImageRounded(
+            reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(picture->id())), at, end,
+            {0.0f, 1.0f}, {1.0f, 0.0f}, IM_COL32_WHITE, rounding);
+    } else {
+        list.AddRectFilled(at, end, ImGui::GetColorU32(ImGuiCol_FrameBg), rounding);
+    }
+    if (isHovered) {
+        list.AddRect(at, end, ImGui::GetColorU32(colors::kAccent), rounding, 0, 1.5f);
+    }
+    ImGui::PushFont(font(Font::Small));
+    const ImVec2 text = ImGui::GetCursorScreenPos();
+    list.PushClipRect(text, {text.x + side, text.y + ImGui::GetTextLineHeight() + 2.0f}, true);
+    list.AddText({text.x + 1.0f, text.y - 2.0f}, ImGui::GetColorU32(colors::kText),
+                 material.label.c_str());
+    list.PopClipRect();
+    ImGui::Dummy({side, ImGui::GetTextLineHeight()});
+    ImGui::PopFont();
+    ImGui::EndGroup();
+    ImGui::PopID();
+}
+
+void drawCards(const LayoutContext& context, const char* title,
+               const std::vector<LibraryMaterial>& materials) {
+    if (materials.empty()) {
+        return;
+    }
+    heading(title);
+    constexpr int kColumns = 3;
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    const float side =
+        std::max(24.0f, (ImGui::GetContentRegionAvail().x - gap * (kColumns - 1)) / kColumns);
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        if (i % kColumns != 0) {
+            ImGui::SameLine(0.0f, gap);
+        }
+        drawCard(context, materials[i], side);
+    }
+}
+
 } // namespace
 
-void drawMaterialPanel(Session& session, const std::function<void(const std::string&)>& putOn) {
-    drawCurrent(session);
-    heading("Shipped materials");
+void drawMaterialPanel(const LayoutContext& context) {
+    drawCurrent(context.session);
+    drawSaving(context);
+    ImGui::Spacing();
     hint("Click: into the hand as primary profile. Double click: onto the whole model.");
-    for (const std::string& name : subedit::shippedMaterialNames()) {
-        if (ImGui::Selectable(name.c_str(), false, ImGuiSelectableFlags_AllowDoubleClick)) {
-            if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-                putOn(name);
-            } else {
-                session.perform({"profile.medium", {{"which", "primary"}, {"name", name}}});
-            }
-        }
-    }
+    const MaterialLibrary& library = currentLibrary(context);
+    drawCards(context, "Yours", library.own);
+    drawCards(context, "Shipped", library.shipped);
+    drawCards(context, "Used lately", library.recent);
 }
 
 } // namespace celadon::ui

@@ -1,14 +1,10 @@
 #pragma once
 
-#include "ui/session.h"
-
-#include <functional>
-#include <string>
+#include "ui/layout_state.h"
 
 namespace celadon::ui {
 
-/// The shipped materials and those of this scene; a click puts one on the model or in the hand.
-/// @param putOn opens the model with a material, by name or file
-void drawMaterialPanel(Session& session, const std::function<void(const std::string&)>& putOn);
+/// What is being painted on, and a browser of materials with pictures.
+void drawMaterialPanel(const LayoutContext& context);
 
 } // namespace celadon::ui

@@ -1,8 +1,10 @@
 #include "ui/panels/view_panel.h"
 
+#include "renderer/explain/explain_pictures.h"
 #include "ui/theme.h"
 #include "ui/view_names.h"
 #include "ui/widgets/fields.h"
+#include "ui/widgets/timing_graph.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -68,7 +70,24 @@ void drawCamera(Session& session) {
     }
 }
 
-void drawModes(Session& session, const Viewport& viewport) {
+void drawTurntable(const LayoutContext& context) {
+    heading("Turntable");
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    const float width = (ImGui::GetContentRegionAvail().x - gap) / 2.0f;
+    if (ImGui::Button(context.state.isTurning ? "Stop" : "Play", {width, 0.0f})) {
+        context.actions.toggleTurntable();
+    }
+    tooltip("Turns the object, light and eye at rest: once around in ten seconds (Space)");
+    ImGui::SameLine(0.0f, gap);
+    if (ImGui::Button("Save sequence\xe2\x80\xa6", {width, 0.0f})) {
+        context.actions.saveTurntable(context.state.turntableFrames);
+    }
+    tooltip("Pictures of a whole turn, numbered, 1280 x 720 pixels, rendered in the background");
+    sliderField("Frames", context.state.turntableFrames, 12, 360, "%d",
+                "Pictures of a whole turn that is saved");
+}
+
+void drawModeList(Session& session) {
     heading("Views for understanding");
     for (const ViewName& name : viewNames()) {
         const bool isCurrent = session.view.mode.mode == name.mode;
@@ -77,61 +96,132 @@ void drawModes(Session& session, const Viewport& viewport) {
         }
         tooltip(name.explanation);
     }
-    if (session.view.mode.mode == ViewMode::ExitanceLevel) {
-        int level = session.view.mode.level;
-        if (sliderField("Level", level, 0, 4, "%d", "0 is the finest")) {
-            session.perform({"view.mode", {{"name", "level"}, {"level", level}}});
+}
+
+void changeMode(Session& session, const char* argument, const nlohmann::json& value) {
+    session.perform({"view.mode",
+                     {{"name", std::string(viewName(session.view.mode.mode).word)},
+                      {argument, value}}});
+}
+
+void drawLightChoice(Session& session) {
+    const int count = static_cast<int>(session.rig.resolved().size());
+    if (count > 1) {
+        int light = std::min(session.view.mode.light, count - 1) + 1;
+        if (sliderField("Light", light, 1, count, "%d", "Of those that are on, as listed")) {
+            changeMode(session, "light", light - 1);
         }
     }
-    static_cast<void>(viewport);
+}
+
+void drawSampleCounts(const Viewport& viewport) {
+    const std::vector<std::size_t>& counts = viewport.shown().shownPerLevel;
+    for (std::size_t level = 0; level < counts.size(); ++level) {
+        const glm::vec3 c = levelColor(static_cast<int>(level));
+        ImGui::ColorButton(fmt::format("##level{}", level).c_str(), {c.r, c.g, c.b, 1.0f},
+                           ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoBorder,
+                           {ImGui::GetFontSize(), ImGui::GetFontSize()});
+        ImGui::SameLine();
+        ImGui::Text("Level %zu: %zu samples", level, counts[level]);
+    }
+}
+
+void drawDifference(const LayoutContext& context) {
+    const FrameDifference* const found = context.truth.difference(context.session);
+    if (found == nullptr) {
+        hint("Working it out\xe2\x80\xa6");
+        return;
+    }
+    readout("Relative error", fmt::format("{:.2f} %", 100.0 * found->relativeRmse),
+            "Relative RMSE of the exitance B over the visible surface, quality default");
+    readout("Mean ratio", fmt::format("{:.4f}", found->meanRatio),
+            "Mean of B over the mean of the truth; 1 is right");
+    readout("Truth took", fmt::format("{:.1f} s, splatting {:.2f} s", 1e-3 * found->truthMs,
+                                      1e-3 * found->splattingMs),
+            "At the size of the comparison, first frame");
+    hint(fmt::format("Black: equal. Yellow: {:.0f} % of the mean exitance or more.{}",
+                     100.0 * found->scale,
+                     context.truth.isComplete(context.session) ? "" : " Refining\xe2\x80\xa6")
+             .c_str());
+}
+
+void drawModes(const LayoutContext& context) {
+    Session& session = context.session;
+    drawModeList(session);
+    const ViewModeSettings& mode = session.view.mode;
+    if (mode.mode == ViewMode::ExitanceLevel || mode.mode == ViewMode::Irradiance) {
+        int level = mode.level;
+        const int most = mode.mode == ViewMode::Irradiance ? 7 : 4;
+        if (sliderField("Level", level, 0, most, "%d", "Mip level; 0 is the finest")) {
+            changeMode(session, "level", level);
+        }
+    }
+    if (mode.mode == ViewMode::Irradiance || mode.mode == ViewMode::Samples) {
+        drawLightChoice(session);
+    }
+    if (mode.mode == ViewMode::Samples) {
+        float distance = mode.distanceMm;
+        const auto most = static_cast<float>(2.0 * session.world().scatteringSphere.radius);
+        if (sliderField("Seen from", distance, 0.0f, most, "%.1f mm",
+                        "Distance from a sample to the point that it lights, mm: far points take "
+                        "coarse samples")) {
+            changeMode(session, "distance", distance);
+        }
+        drawSampleCounts(context.viewport);
+    }
+    if (mode.mode == ViewMode::Difference) {
+        drawDifference(context);
+    }
 }
 
 void drawTimings(const Viewport& viewport) {
-    heading("Times");
+    heading("What a picture costs");
     if (viewport.shownRung() < 0) {
         hint("No picture yet.");
         return;
     }
+    drawTimingGraph(viewport, 62.0f * ImGui::GetFontSize() / 15.0f);
     const Picture& picture = viewport.shown();
-    double splatting = 0.0;
-    for (const double level : picture.stages.splatting) {
-        splatting += level;
-    }
-    struct Stage {
-        const char* name;
-        double timeMs;
-    };
-    const std::array<Stage, 6> stages{{{"Irradiance buffer", picture.stages.irradianceBuffer},
-                                       {"Splatting buffer", picture.stages.splattingBuffer},
-                                       {"Selection", picture.stages.selection},
-                                       {"Splatting", splatting},
-                                       {"Accumulation", picture.stages.accumulation},
-                                       {"Shading", picture.stages.shading}}};
-    double most = 1e-3;
-    for (const Stage& stage : stages) {
-        most = std::max(most, stage.timeMs);
-    }
-    for (const Stage& stage : stages) {
-        ImGui::PushFont(font(Font::Small));
+    ImGui::PushFont(font(Font::Small));
+    const float square = 0.7f * ImGui::GetFontSize();
+    for (const StageRow& stage : stageRows(picture.stages)) {
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + 0.2f * square},
+                                                  {at.x + square, at.y + 1.2f * square},
+                                                  stage.color, 2.0f);
+        ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 2.0f * square);
         ImGui::TextUnformatted(stage.name);
-        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x * 0.42f);
-        ImGui::ProgressBar(static_cast<float>(stage.timeMs / most),
-                           {-1.0f, ImGui::GetFontSize() + 2.0f},
-                           fmt::format("{:.1f} ms", stage.timeMs).c_str());
-        ImGui::PopFont();
+        const std::string time = fmt::format("{:.1f} ms", stage.timeMs);
+        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x -
+                        ImGui::CalcTextSize(time.c_str()).x);
+        ImGui::TextUnformatted(time.c_str());
     }
+    ImGui::PopFont();
     readout("Picture", fmt::format("{}\xc3\x97{} px", picture.sizePx.x, picture.sizePx.y),
             "Size of the picture on screen, in pixels");
     readout("Total", fmt::format("{:.0f} ms", picture.timeMs), "Time of the picture on screen");
+    if (picture.counts) {
+        std::size_t samples = 0;
+        std::string perLevel;
+        for (std::size_t level = 0; level < picture.counts->selected.size(); ++level) {
+            samples += picture.counts->selected[level];
+            perLevel += fmt::format("{}level {}: {}", level > 0 ? "\n" : "", level,
+                                    picture.counts->selected[level]);
+        }
+        readout("Samples", fmt::format("{}", samples), perLevel.c_str());
+        readout("Pairs", fmt::format("{:.2f} M", 1e-6 * static_cast<double>(picture.counts->pairs)),
+                "Pairs of a sample and a pixel that were evaluated, in millions");
+    }
 }
 
 } // namespace
 
-void drawViewPanel(Session& session, const Viewport& viewport) {
-    drawDisplay(session);
-    drawCamera(session);
-    drawModes(session, viewport);
-    drawTimings(viewport);
+void drawViewPanel(const LayoutContext& context) {
+    drawDisplay(context.session);
+    drawModes(context);
+    drawTimings(context.viewport);
+    drawCamera(context.session);
+    drawTurntable(context);
 }
 
 } // namespace celadon::ui

@@ -1,11 +1,10 @@
 #pragma once
 
-#include "ui/session.h"
-#include "ui/viewport.h"
+#include "ui/layout_state.h"
 
 namespace celadon::ui {
 
-/// Camera, display, views that explain, timings.
-void drawViewPanel(Session& session, const Viewport& viewport);
+/// Exposure, camera, turntable, views that explain, and what the picture cost.
+void drawViewPanel(const LayoutContext& context);
 
 } // namespace celadon::ui

@@ -40,6 +40,8 @@ StrokeFile everything() {
         file.commands.push_back(ApplyCommand{op});
         file.commands.push_back(StrokeCommand{op, brush, mirror, {a, b}});
         file.commands.push_back(PropagateCommand{op, propagation});
+        file.commands.push_back(
+            StampCommand{op, {place, 12.3f, -33.3f, 3, 2, {0, 1, 127, 128, 254, 255}}});
     }
     for (const SelectionStep& step : std::vector<SelectionStep>{
              SelectAll{}, SelectNone{}, InvertSelection{}, GrowSelection{0.1f},

@@ -1,0 +1,64 @@
+#!/usr/bin/env bash
+# Painting for a long time: painting_soak.sh PROGRAM FOLDER SECONDS
+# Replays strokes with all kinds of operators again and again in a real window, each waiting for its
+# light to be on screen, undoing now and then as hands do. Leaves FOLDER/painting_soak.svg (time of a
+# stroke, and memory) and the numbers beside it. Fails where the last third is a quarter slower than
+# the first, or where memory goes on growing faster than the undo history is allowed to. An hour:
+# SECONDS = 3600. Exit code 77: cannot run here.
+set -u
+program=$1
+folder=$2
+seconds=$3
+
+command -v Xvfb >/dev/null || { echo "skipped: Xvfb is missing"; exit 77; }
+rm -rf "$folder"
+mkdir -p "$folder/config" "$folder/state" "$folder/cache"
+export XDG_CONFIG_HOME=$folder/config XDG_STATE_HOME=$folder/state XDG_CACHE_HOME=$folder/cache
+unset WAYLAND_DISPLAY
+exec 3>"$folder/display"
+Xvfb -displayfd 3 -screen 0 1280x720x24 >/dev/null 2>&1 &
+server=$!
+trap 'kill "$server" 2>/dev/null; wait 2>/dev/null' EXIT
+for _ in $(seq 100); do [ -s "$folder/display" ] && break; sleep 0.1; done
+DISPLAY=:$(cat "$folder/display")
+export DISPLAY
+
+# Strokes around the vase's belly: 40 points each, every fifth taken back and done again.
+awk 'BEGIN {
+    n = split("scale-albedo tint scale-range mix", op, " ")
+    for (i = 0; i < 60; ++i) {
+        name = op[i % n + 1]
+        if (name == "scale-albedo") o = "{\"name\":\"scale-albedo\",\"factor\":[0.9,0.95,1.1]}"
+        if (name == "tint") o = "{\"name\":\"tint\",\"color\":[0.4,0.9,0.5],\"amount\":0.5}"
+        if (name == "scale-range") o = "{\"name\":\"scale-range\",\"factor\":[0.9,0.9,0.9]}"
+        if (name == "mix") o = "{\"name\":\"mix\",\"profile\":{\"albedo\":[0.6,0.5,0.3],\"effectiveRadiusMm\":[5,4,3]},\"amount\":0.4}"
+        path = ""
+        for (k = 0; k < 40; ++k) {
+            a = 0.7 * i + 0.02 * k
+            path = path (k ? "," : "") sprintf("{\"positionMm\":[%.4f,%.4f,%.4f]}", 38 * sin(a), 50 + 20 * sin(0.9 * i), 38 * cos(a))
+        }
+        printf "{\"command\":\"paint.edit\",\"material\":0,\"edit\":{\"command\":\"stroke\",\"operator\":%s,\"brush\":{\"radiusMm\":12,\"flow\":0.5},\"path\":[%s]}}\n", o, path
+        if (i % 5 == 4) print "{\"command\":\"edit.undo\"}\n{\"command\":\"edit.redo\"}"
+    }
+}' >"$folder/strokes.jsonl"
+
+"$program" edit --size 1280x720 --quality draft --replay "$folder/strokes.jsonl" \
+    --repeat-for "$seconds" --trace "$folder/painting_soak.svg" --exit-after-replay || exit 1
+
+# Medians of the first and last third, after the first tenth, which warms up.
+awk -F, 'NR > 1 { t[n] = $2 + $3; m[n] = $4; ++n }
+function median(a, from, to,   i, j, k, b) {
+    k = 0
+    for (i = from; i < to; ++i) { # insertion: a few hundred values
+        for (j = k++; j > 0 && b[j] > a[i]; --j) b[j + 1] = b[j]
+        b[j + 1] = a[i]
+    }
+    return b[int((k + 1) / 2)]
+}
+END {
+    s = int(n / 10); third = int((n - s) / 3)
+    t1 = median(t, s, s + third); t3 = median(t, n - third, n)
+    m1 = median(m, s, s + third); m3 = median(m, n - third, n)
+    printf "%d commands; a stroke takes %.0f ms, at the end %.0f ms; memory %.0f MB, at the end %.0f MB (%.3f MB a command)\n", n, t1, t3, m1, m3, (m3 - m1) / (n - third - s)
+    exit !(t3 <= 1.25 * t1 && (m3 - m1) / (n - third - s) < 0.2)
+}' "$folder/painting_soak.csv"

@@ -1,0 +1,192 @@
+#include "ui/file_actions.h"
+
+#include "subedit/errors.h"
+#include "ui/user_folders.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+namespace celadon::ui {
+
+namespace {
+
+constexpr const char* kMaterialSuffix = ".subedit.exr";
+
+std::string lowered(std::string text) {
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+} // namespace
+
+FileActions::FileActions(Session& session, BackgroundOpen& open, Preferences& preferences,
+                         Journal& journal, bool isUnattended)
+    : mSession(session),
+      mOpen(open),
+      mPreferences(preferences),
+      mJournal(journal),
+      mIsUnattended(isUnattended) {}
+
+void FileActions::open(const OpenRequest& request) {
+    guard([this, request] { mOpen.start(request); });
+}
+
+void FileActions::openModel() {
+    choose(FileDialog::Kind::Open, "Open a model",
+           {".gltf", ".glb", ".obj", ".ply", ".off", ".stl"}, "", [this](const auto& file) {
+               open({file.string(), {}});
+           });
+}
+
+void FileActions::openMaterial() {
+    choose(FileDialog::Kind::Open, "Open a material", {kMaterialSuffix}, "",
+           [this](const auto& file) { putOn(file.string()); });
+}
+
+void FileActions::openEnvironment() {
+    choose(FileDialog::Kind::Open, "Open an environment", {".hdr", ".exr"}, "",
+           [this](const auto& file) {
+               mSession.perform({"environment.open", {{"file", file.string()}}});
+           });
+}
+
+void FileActions::openStamp() {
+    choose(FileDialog::Kind::Open, "Open an image to stamp",
+           {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".exr", ".hdr"}, "",
+           [this](const auto& file) {
+               mSession.perform({"stamp.open", {{"file", file.string()}}});
+           });
+}
+
+bool FileActions::saveTo(const std::filesystem::path& file) {
+    if (const auto problem = mJournal.keep(file)) {
+        mSession.notify(Notice::Kind::Warning, *problem);
+    }
+    if (!mSession.perform({"file.save", {{"file", file.string()}}})) {
+        return false;
+    }
+    if (!mIsUnattended) {
+        addRecent(mPreferences.recentMaterials, file.string());
+        savePreferences();
+    }
+    return true;
+}
+
+void FileActions::saveAs(const std::function<void()>& then) {
+    if (mSession.activeDocument() == nullptr) {
+        return;
+    }
+    const std::string name = mSession.materialFile
+                                 ? mSession.materialFile->filename().string()
+                                 : mSession.activeDocument()->material().name + kMaterialSuffix;
+    choose(FileDialog::Kind::Save, "Save the material", {kMaterialSuffix}, name,
+           [this, then](const auto& file) {
+               if (saveTo(file) && then) {
+                   then();
+               }
+           });
+}
+
+void FileActions::save(const std::function<void()>& then) {
+    if (!mSession.materialFile) {
+        saveAs(then);
+    } else if (saveTo(*mSession.materialFile) && then) {
+        then();
+    }
+}
+
+void FileActions::saveAsNew(const std::string& name) {
+    const std::filesystem::path folder = dataFolder() / "materials";
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    const std::filesystem::path file = folder / (name + kMaterialSuffix);
+    if (!std::filesystem::exists(file, failed)) {
+        saveTo(file);
+        return;
+    }
+    ask("Replace?", fmt::format("There is a material '{}' already.", name),
+        {{"Replace", [this, file] { saveTo(file); }}, {"Cancel", {}}});
+}
+
+void FileActions::exportGltf() {
+    const std::string stem = std::filesystem::path(mSession.opened().model).stem().string();
+    chooseOutput("Export glTF and SubEdit", ".gltf",
+                 (stem.starts_with("builtin:") ? stem.substr(8) : stem) + ".gltf",
+                 [this](const auto& file) {
+                     mSession.perform({"file.export", {{"file", file.string()}}});
+                 });
+}
+
+void FileActions::chooseOutput(const std::string& title, const std::string& suffix,
+                               const std::string& name,
+                               std::function<void(const std::filesystem::path&)> done) {
+    choose(FileDialog::Kind::Save, title, {suffix}, name, std::move(done));
+}
+
+void FileActions::choose(FileDialog::Kind kind, const std::string& title,
+                         std::vector<std::string> suffixes, const std::string& name,
+                         std::function<void(const std::filesystem::path&)> done) {
+    std::filesystem::path folder = mLastFolder;
+    if (folder.empty() && !mSession.opened().model.starts_with("builtin:")) {
+        folder = std::filesystem::path(mSession.opened().model).parent_path();
+    }
+    mFiles.open(kind, title, std::move(suffixes), folder, name,
+                [this, done = std::move(done)](const std::filesystem::path& file) {
+                    mLastFolder = file.parent_path();
+                    done(file);
+                });
+}
+
+void FileActions::drop(const std::filesystem::path& file) {
+    const std::string name = lowered(file.filename().string());
+    if (name.ends_with(kMaterialSuffix)) {
+        putOn(file.string());
+    } else if (name.ends_with(".hdr") || name.ends_with(".exr")) {
+        mSession.perform({"environment.open", {{"file", file.string()}}});
+    } else if (name.ends_with(".png") || name.ends_with(".jpg") || name.ends_with(".jpeg")) {
+        mSession.perform({"stamp.open", {{"file", file.string()}}});
+    } else {
+        open({file.string(), {}});
+    }
+}
+
+void FileActions::guard(const std::function<void()>& act) {
+    if (!mSession.isModified() || mIsUnattended) {
+        act();
+        return;
+    }
+    ask("Unsaved changes", "The material has changes that are not saved.",
+        {{"Save\xe2\x80\xa6", [this, act] { save(act); }},
+         {"Do not save", act}, // still modified, should opening fail
+         {"Cancel", {}}});
+}
+
+void FileActions::remember(const OpenRequest& opened) {
+    if (mIsUnattended) {
+        return;
+    }
+    addRecent(mPreferences.recentModels, opened.model);
+    if (opened.material.ends_with(kMaterialSuffix)) {
+        addRecent(mPreferences.recentMaterials, opened.material);
+    }
+    savePreferences();
+}
+
+void FileActions::savePreferences() {
+    try {
+        writePreferences(mPreferences, preferencesFile());
+    } catch (const Error& error) {
+        mSession.notify(Notice::Kind::Warning, error.what());
+    }
+}
+
+void FileActions::draw(float scale) {
+    mFiles.draw(scale);
+    mQuestion.draw(scale);
+}
+
+} // namespace celadon::ui

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "ui/background_open.h"
+#include "ui/journal.h"
+#include "ui/panels/file_dialog.h"
+#include "ui/panels/question.h"
+#include "ui/preferences.h"
+#include "ui/session.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+/// Opening and saving as a user does it: dialogs, drops, recent files, and the guard that no
+/// unsaved change is lost without a word.
+namespace celadon::ui {
+
+class FileActions {
+public:
+    /// @param isUnattended nobody is there to answer questions: nothing is asked or remembered
+    FileActions(Session& session, BackgroundOpen& open, Preferences& preferences,
+                Journal& journal, bool isUnattended);
+
+    void open(const OpenRequest& request);
+    void putOn(const std::string& material) { open({mSession.opened().model, material}); }
+    void openModel();
+    void openMaterial();
+    void openEnvironment();
+    void openStamp();
+    /// @param then once it is saved
+    void save(const std::function<void()>& then = {});
+    void saveAs(const std::function<void()>& then = {});
+    /// Into the user's own materials. @param name without a suffix
+    void saveAsNew(const std::string& name);
+    void exportGltf();
+    /// Any other output: the dialog, and where to write.
+    void chooseOutput(const std::string& title, const std::string& suffix, const std::string& name,
+                      std::function<void(const std::filesystem::path&)> done);
+    /// A file that was dropped on the window: a model, a material or an environment.
+    void drop(const std::filesystem::path& file);
+
+    /// Acts, after asking where changes would be lost.
+    void guard(const std::function<void()>& act);
+    void ask(const std::string& title, const std::string& text,
+             std::vector<Question::Answer> answers) {
+        mQuestion.ask(title, text, std::move(answers));
+    }
+
+    /// What was opened goes to the recent files.
+    void remember(const OpenRequest& opened);
+    void savePreferences();
+
+    [[nodiscard]] bool isAsking() const { return mFiles.isOpen() || mQuestion.isOpen(); }
+    void draw(float scale);
+
+private:
+    void choose(FileDialog::Kind kind, const std::string& title, std::vector<std::string> suffixes,
+                const std::string& name, std::function<void(const std::filesystem::path&)> done);
+    bool saveTo(const std::filesystem::path& file);
+
+    Session& mSession;
+    BackgroundOpen& mOpen;
+    Preferences& mPreferences;
+    Journal& mJournal;
+    bool mIsUnattended;
+    FileDialog mFiles;
+    Question mQuestion;
+    std::filesystem::path mLastFolder;
+};
+
+} // namespace celadon::ui

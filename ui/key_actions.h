@@ -1,0 +1,19 @@
+#pragma once
+
+#include "ui/layout_state.h"
+#include "ui/shortcuts.h"
+
+/// What each shortcut does: most are commands, some concern the window only.
+namespace celadon::ui {
+
+struct KeyTargets {
+    Session& session;
+    ViewportTools& tools;
+    const ViewportRect& viewport;
+    LayoutState& layout;
+    const LayoutActions& actions;
+};
+
+void performAction(Action action, const KeyTargets& targets);
+
+} // namespace celadon::ui

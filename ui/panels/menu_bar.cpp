@@ -1,0 +1,163 @@
+#include "ui/panels/menu_bar.h"
+
+#include "renderer/scene/builtin.h"
+#include "ui/material_library.h"
+#include "ui/view_names.h"
+
+#include <imgui.h>
+
+#include <array>
+
+namespace celadon::ui {
+
+namespace {
+
+void item(const char* label, const char* shortcut, const std::function<void()>& act,
+          bool enabled = true) {
+    if (ImGui::MenuItem(label, shortcut, false, enabled)) {
+        act();
+    }
+}
+
+/// Opens a menu by itself when a script asks for it, and closes it for another one.
+bool beginMenu(const LayoutState& state, const char* label, std::string_view word) {
+    const bool isAsked = state.openMenu == word;
+    if (isAsked) {
+        ImGui::OpenPopup(label);
+    }
+    const bool isOpen = ImGui::BeginMenu(label);
+    if (isOpen && !state.openMenu.empty() && !isAsked) {
+        ImGui::CloseCurrentPopup();
+    }
+    return isOpen;
+}
+
+void drawRecent(const char* label, const std::vector<std::string>& entries,
+                const std::function<void(const std::string&)>& open) {
+    if (ImGui::BeginMenu(label, !entries.empty())) {
+        for (const std::string& entry : entries) {
+            if (ImGui::MenuItem(entry.c_str())) {
+                open(entry);
+                break;
+            }
+        }
+        ImGui::EndMenu();
+    }
+}
+
+void drawFileMenu(const LayoutContext& context) {
+    const LayoutActions& actions = context.actions;
+    item("Open model\xe2\x80\xa6", "Ctrl+O", actions.openModel);
+    if (ImGui::BeginMenu("Builtin models")) {
+        for (const std::string& name : builtinNames()) {
+            if (ImGui::MenuItem(materialLabel(name).c_str())) {
+                actions.open("builtin:" + name);
+            }
+        }
+        ImGui::EndMenu();
+    }
+    drawRecent("Recent models", context.preferences.recentModels, actions.open);
+    item("Open material\xe2\x80\xa6", "", actions.openMaterial);
+    drawRecent("Recent materials", context.preferences.recentMaterials, actions.putOn);
+    item("Open environment\xe2\x80\xa6", "", actions.openEnvironment);
+    ImGui::Separator();
+    const bool hasMaterial = context.session.activeDocument() != nullptr;
+    item("Save material", "Ctrl+S", actions.save, hasMaterial);
+    item("Save material as\xe2\x80\xa6", "Ctrl+Shift+S", actions.saveAs, hasMaterial);
+    ImGui::Separator();
+    const bool hasWorld = context.session.hasWorld();
+    item("Export glTF and SubEdit\xe2\x80\xa6", "", actions.exportGltf, hasMaterial);
+    item("Save picture\xe2\x80\xa6", "", actions.savePicture, hasWorld);
+    if (ImGui::MenuItem("Save turntable\xe2\x80\xa6", nullptr, false, hasWorld)) {
+        actions.saveTurntable(context.state.turntableFrames);
+    }
+    ImGui::Separator();
+    item("Quit", "Ctrl+Q", actions.quit);
+}
+
+void drawEditMenu(const LayoutContext& context) {
+    Session& session = context.session;
+    const subedit::Document* const document = session.activeDocument();
+    const bool canUndo = document != nullptr && document->canUndo();
+    const bool canRedo = document != nullptr && document->canRedo();
+    const auto command = [&session](const char* label, const char* shortcut, Command action,
+                                    bool enabled) {
+        if (ImGui::MenuItem(label, shortcut, false, enabled)) {
+            session.perform(action);
+        }
+    };
+    command(canUndo ? ("Undo " + document->undoTitle()).c_str() : "Undo", "Ctrl+Z", {"edit.undo"},
+            canUndo);
+    command(canRedo ? ("Redo " + document->redoTitle()).c_str() : "Redo", "Ctrl+Shift+Z",
+            {"edit.redo"}, canRedo);
+    ImGui::Separator();
+    const bool has = document != nullptr;
+    command("Fill the selection", nullptr, {"edit.fill"}, has);
+    command("Swap profiles", "X", {"profile.swap"}, true);
+    ImGui::Separator();
+    command("Select all", "Ctrl+A", {"select.change", {{"what", "all"}}}, has);
+    command("Select nothing", "Ctrl+D", {"select.change", {{"what", "none"}}}, has);
+    command("Invert the selection", "Ctrl+I", {"select.change", {{"what", "invert"}}}, has);
+    ImGui::Separator();
+    if (ImGui::MenuItem("Preferences\xe2\x80\xa6")) {
+        context.state.preferencesShown = true;
+    }
+}
+
+void drawViewMenu(const LayoutContext& context) {
+    Session& session = context.session;
+    for (const ViewName& name : viewNames()) {
+        if (ImGui::MenuItem(name.label, nullptr, session.view.mode.mode == name.mode)) {
+            session.perform({"view.mode", {{"name", std::string(name.word)}}});
+        }
+    }
+    ImGui::Separator();
+    constexpr std::array<std::array<const char*, 3>, 3> kSides{
+        {{"Front", "Num 1", "front"}, {"Right", "Num 3", "right"}, {"Top", "Num 7", "top"}}};
+    for (const auto& [label, key, word] : kSides) {
+        if (ImGui::MenuItem(label, key)) {
+            session.perform({"camera.view", {{"name", word}}});
+        }
+    }
+    if (ImGui::MenuItem("Frame the model", "Home")) {
+        session.perform({"camera.frame", {{"aspect", session.aspect}}});
+    }
+    if (ImGui::MenuItem("Turntable", "Space", context.state.isTurning)) {
+        context.actions.toggleTurntable();
+    }
+    ImGui::Separator();
+    if (ImGui::MenuItem("Panels", "H", context.state.panelsShown)) {
+        context.state.panelsShown = !context.state.panelsShown;
+    }
+    item("Full screen", "F11", context.actions.toggleFullScreen);
+}
+
+} // namespace
+
+void drawMenuBar(const LayoutContext& context) {
+    if (!ImGui::BeginMainMenuBar()) {
+        return;
+    }
+    if (beginMenu(context.state, "File", "file")) {
+        drawFileMenu(context);
+        ImGui::EndMenu();
+    }
+    if (beginMenu(context.state, "Edit", "edit")) {
+        drawEditMenu(context);
+        ImGui::EndMenu();
+    }
+    if (beginMenu(context.state, "View", "view")) {
+        drawViewMenu(context);
+        ImGui::EndMenu();
+    }
+    if (beginMenu(context.state, "Help", "help")) {
+        if (ImGui::MenuItem("Shortcuts", "F1")) {
+            context.state.helpShown = true;
+        }
+        ImGui::EndMenu();
+    }
+    context.state.openMenu.clear();
+    ImGui::EndMainMenuBar();
+}
+
+} // namespace celadon::ui

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "renderer/frame_renderer.h"
+#include "ui/picture.h"
+
+#include <atomic>
+#include <deque>
+#include <list>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+/// What lives on the context of the picture's thread: the world on the GPU, and renderers of the
+/// sizes and qualities in use. The thread makes its context current before it calls.
+namespace celadon::ui {
+
+class PictureRenderers {
+public:
+    /// @param context current; outlives this
+    explicit PictureRenderers(const gl::Context& context) : mContext(context) {}
+
+    [[nodiscard]] bool hasWorld() const { return mScene != nullptr; }
+    /// @param materials those of the world, which are these renderers' from now on
+    void setWorld(std::shared_ptr<const World> world,
+                  std::vector<std::shared_ptr<subedit::MaterialMap>> materials);
+    void apply(const std::deque<MaterialPatch>& patches);
+    void apply(const SelectionWeights& selection);
+    /// After an error nothing is known of their state: they are made anew.
+    void dropRenderers() { mReady.clear(); }
+
+    /// Nothing when interrupted.
+    [[nodiscard]] std::optional<Picture> render(const PictureRequest& request,
+                                                const std::atomic<bool>& interrupt);
+
+private:
+    struct Ready {
+        FrameSettings settings;
+        std::unique_ptr<FrameRenderer> renderer;
+    };
+    void makeScene();
+    void dropScene();
+    FrameRenderer& rendererFor(const PictureRequest& request, bool& isNew);
+    [[nodiscard]] SelectionOverlay overlayFor(const PictureRequest& request,
+                                              const FrameRenderer& renderer) const;
+    /// The frame as display pixels.
+    void develop(const PictureRequest& request, const gl::Texture& radiance,
+                 const FrameRenderer& renderer, Picture& picture);
+    /// The views of one light, in place of the picture or over it.
+    void explainLight(const PictureRequest& request, FrameRenderer& renderer, Picture& picture);
+
+    const gl::Context& mContext;
+    std::shared_ptr<const World> mWorld;
+    std::vector<std::shared_ptr<subedit::MaterialMap>> mMaterials;
+    std::shared_ptr<GpuScene> mScene;
+    std::list<Ready> mReady; ///< latest used first
+    float mKnownLog = 0.0f;  ///< largest ln P of all materials, or more
+    std::unique_ptr<ToneMapPass> mToneMap;
+    std::unique_ptr<ViewModePass> mViewMode;
+    std::map<int, gl::Texture> mSelections; ///< by material
+};
+
+} // namespace celadon::ui

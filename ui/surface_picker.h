@@ -1,0 +1,41 @@
+#pragma once
+
+#include "renderer/reference/ray_scene.h"
+#include "ui/session.h"
+
+#include <glm/vec2.hpp>
+
+#include <memory>
+#include <optional>
+
+/// What lies under a place of the viewport.
+namespace celadon::ui {
+
+struct ViewportRect;
+
+class SurfacePicker {
+public:
+    explicit SurfacePicker(const Session& session) : mSession(session) {}
+
+    /// The surface under a window pixel; null beside the object.
+    [[nodiscard]] std::optional<SurfacePoint> pick(glm::dvec2 positionPx,
+                                                   const ViewportRect& rect);
+    /// The surface along a line, near a point of it: p moved along the normal by up to `reachMm`.
+    [[nodiscard]] glm::dvec3 laidOn(const glm::dvec3& p, const glm::dvec3& normal, double reachMm);
+    /// What the view turns or zooms about: the surface under the cursor, else the point of the ray
+    /// that is as deep as the target.
+    [[nodiscard]] glm::dvec3 pivot(glm::dvec2 positionPx, const ViewportRect& rect);
+
+private:
+    const RayScene* rays();
+
+    const Session& mSession;
+    std::shared_ptr<const World> mRayWorld; ///< of mRays, which refers to it
+    std::unique_ptr<RayScene> mRays;
+};
+
+/// Where a point is seen, window pixels.
+[[nodiscard]] glm::dvec2 seenAt(const Camera& camera, const glm::dvec3& point,
+                                const ViewportRect& rect);
+
+} // namespace celadon::ui
