@@ -216,11 +216,15 @@ public:
           mRestBounds{mWorld.scatteringSphere, mWorld.sceneSphere},
           mMotion(
               makeMotion(mWorld, {options.animation, options.timeSeconds, options.deformations})),
-          mTimer(context) {}
+          mTimer(context) {
+        for (const std::string& warning : mMotion.warnings()) {
+            log::warning("{}", warning);
+        }
+    }
 
     [[nodiscard]] RenderedFrame make(int number) {
         const double seconds = mOptions.timeSeconds.value_or(number / mOptions.framesPerSecond);
-        const Pose pose = mMotion.at(seconds);
+        const Pose pose = inFrame(number, seconds, [&] { return mMotion.at(seconds); });
         mWorld.scatteringSphere = mRestBounds.scattering;
         mWorld.sceneSphere = mRestBounds.scene;
         if (mMotion.moves()) {
@@ -229,12 +233,7 @@ public:
         }
         const Camera camera = cameraOf(mOptions, mWorld);
         const std::vector<Light> lights = lightsOf(mOptions, mWorld, camera);
-        double deformationMs = 0.0;
-        try {
-            deformationMs = move(pose);
-        } catch (const InputError& error) {
-            throw InputError(fmt::format("frame {} at {:g} s", number, seconds), error.what());
-        }
+        const double deformationMs = inFrame(number, seconds, [&] { return move(pose); });
         mRenderer->setEnvironment(mEnvironment);
         RenderedFrame frame = mRenderer->render(camera, lights);
         frame.stats.frame = number;
@@ -253,6 +252,13 @@ public:
     }
 
     [[nodiscard]] int irradianceSize() const { return mRenderer->irradianceSize(); }
+    /// Of every mesh, from the next frame on.
+    void setMaterial(MaterialPointer material) {
+        mDeformation.reset();
+        mRenderer.reset();
+        mScene.reset();
+        mWorld.materials = {std::move(material)};
+    }
     [[nodiscard]] double millimetersPerUnit() const { return mWorld.millimetersPerUnit; }
 
 private:
@@ -268,6 +274,16 @@ private:
     std::shared_ptr<const GpuScene> mScene;
     std::unique_ptr<FrameRenderer> mRenderer;
     std::unique_ptr<GpuDeformation> mDeformation;
+
+    /// What cannot be posed or moved is said with its frame.
+    template<typename Work>
+    static auto inFrame(int number, double seconds, const Work& work) {
+        try {
+            return work();
+        } catch (const InputError& error) {
+            throw InputError(fmt::format("frame {} at {:g} s", number, seconds), error.what());
+        }
+    }
 
     /// @return the time of it, ms
     double move(const Pose& pose) {
@@ -317,8 +333,7 @@ void render(const RenderOptions& options) {
     refuseUnbuilt(options);
     const FrameRange frames = options.frames.value_or(FrameRange{});
     const FrameSettings settings = frameSettings(options);
-    const bool worldChanges =
-        options.sequence || (options.material && hasFrameField(*options.material));
+    MaterialOverTime material(options);
 
     World first = readWorld(options, frames.first); // bad input is said before GL starts
     const Environment environment = environmentOf(options);
@@ -331,10 +346,13 @@ void render(const RenderOptions& options) {
         std::make_unique<FrameMaker>(options, settings, *context, environment, std::move(first));
     Progress progress("frames", static_cast<std::size_t>(frames.count()));
     for (int number = frames.first; number <= frames.last; ++number) {
-        if (worldChanges && number > frames.first) {
+        if (options.sequence && number > frames.first) {
             maker.reset();
             maker = std::make_unique<FrameMaker>(options, settings, *context, environment,
                                                  readWorld(options, number));
+        }
+        if (MaterialPointer now = material.at(number)) {
+            maker->setMaterial(std::move(now));
         }
         RenderedFrame frame = maker->make(number);
         stats.millimetersPerUnit = maker->millimetersPerUnit();
