@@ -277,7 +277,7 @@ private:
 
     /// What cannot be posed or moved is said with its frame.
     template<typename Work>
-    static auto inFrame(int number, double seconds, const Work& work) {
+    static std::invoke_result_t<const Work&> inFrame(int number, double seconds, const Work& work) {
         try {
             return work();
         } catch (const InputError& error) {
