@@ -129,7 +129,8 @@ DeformerEntry entryOf(const Deformer& deformer, const RestBox& box, std::size_t 
     }
     entry.center = glm::vec4(0.5 * (box.low + box.high), 0.0);
     entry.amount = glm::vec4(rate, wave, low, 0.0);
-    entry.bounds = deformer.range ? glm::vec4(0.0, length, 0.0, 0.0)
+    constexpr double kEndOfRange = 1e-5; // of its length, as in deformer.cpp
+    entry.bounds = deformer.range ? glm::vec4(0.0, length, kEndOfRange * length, 0.0)
                                   : glm::vec4(-kEverywhere, kEverywhere, 0.0, 0.0);
     return entry;
 }
@@ -247,7 +248,8 @@ void GpuDeformation::sendNodes(const NodePose& pose) {
     entries.reserve(pose.nodes.size());
     for (std::size_t n = 0; n < pose.nodes.size(); ++n) {
         const MovedNode& node = pose.nodes[n];
-        entries.push_back({glm::vec4(pose.binding->places[n], 0.0), glm::vec4(node.to, 0.0),
+        entries.push_back({glm::vec4(pose.binding->places[n], 0.0),
+                           glm::vec4(node.to, 0.0),
                            {glm::vec4(node.linear[0], 0.0), glm::vec4(node.linear[1], 0.0),
                             glm::vec4(node.linear[2], 0.0)}});
     }

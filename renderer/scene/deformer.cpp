@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
 constexpr double kTwoPi = 2.0 * 3.14159265358979323846;
+constexpr double kEndOfRange = 1e-5; ///< of its length; the same in gpu_deformation.cpp
 
 struct Form {
     Deformer::Kind kind;
@@ -69,7 +70,8 @@ Mapped map(const Deformer& deformer, const RestBox& box, const glm::dvec3& p) {
     const double along = p[a] - course.low;
     const double s = course.isBounded ? std::clamp(along, 0.0, length) : along;
     const double beyond = along - s;
-    const double slope = beyond == 0.0 ? 1.0 : 0.0; // of s
+    // Of s. What lies at an end of the range belongs to it, whichever way numbers were rounded.
+    const double slope = std::abs(beyond) <= kEndOfRange * std::abs(length) ? 1.0 : 0.0;
     const double u = p[b] - center[b];
     const double v = p[c] - center[c];
     Mapped result{p};
@@ -156,8 +158,7 @@ Deformer parseDeformer(std::string_view text) {
     }
     const std::string remedy = fmt::format("write {}", found->text);
     const std::size_t usual = split(found->text).size();
-    const bool hasRange =
-        found->kind != Deformer::Kind::Inflate && parts.size() == usual + 1;
+    const bool hasRange = found->kind != Deformer::Kind::Inflate && parts.size() == usual + 1;
     if (parts.size() != usual && !hasRange) {
         throw UsageError(subject, "has too few or too many parts", remedy);
     }

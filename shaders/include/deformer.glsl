@@ -7,7 +7,7 @@ struct Deformer {
     ivec4 lattice; // control points along x, y, z; the first of its offsets
     vec4 center;   // of the rest box, mm; lattice: 1 / its extent
     vec4 amount;   // radians per mm, scale less 1 per mm, or mm; wave: radians per mm; low end, 0; lattice: low corner
-    vec4 bounds;   // of the distance from the low end within which it grows, mm; 0, 0
+    vec4 bounds;   // of the distance from the low end within which it grows, mm; what counts as its end, mm; 0
 };
 
 const int kTwist = 0;
@@ -30,7 +30,7 @@ vec3 mapAlongAxis(Deformer deformer, vec3 p, out mat3 jacobian) {
     float distance = p[a] - deformer.amount.z;
     float s = clamp(distance, deformer.bounds.x, deformer.bounds.y);
     float beyond = distance - s;
-    float slope = beyond == 0.0 ? 1.0 : 0.0; // of s
+    float slope = abs(beyond) <= deformer.bounds.z ? 1.0 : 0.0; // of s
     float u = p[b] - deformer.center[b];
     float v = p[c] - deformer.center[c];
     float rate = deformer.amount.x;

@@ -180,13 +180,14 @@ TEST_F(MotionCommand, WhatDoesNotExistIsRefused) {
 TEST_F(MotionCommand, ADegenerateLatticeNamesItsFrame) {
     std::string moves;
     for (int i = 0; i < 8; ++i) { // into the plane y = 0 at one second
-        moves += fmt::format(R"({}{{"point": [{}, {}, {}], "by": {{"times": [0, 1],
+        moves +=
+            fmt::format(R"({}{{"point": [{}, {}, {}], "by": {{"times": [0, 1],
                                 "values": [[0, 0, 0], [0, {}, 0]]}}}})",
-                             i == 0 ? "" : ", ", i % 2, i / 2 % 2, i / 4,
-                             i / 2 % 2 == 1 ? -10 : 10);
+                        i == 0 ? "" : ", ", i % 2, i / 2 % 2, i / 4, i / 2 % 2 == 1 ? -10 : 10);
     }
     writeText(folder / "flat.json",
-              R"({"deformers": [{"type": "lattice", "size": [2, 2, 2], "moves": [)" + moves + "]}]}");
+              R"({"deformers": [{"type": "lattice", "size": [2, 2, 2], "moves": [)" + moves +
+                  "]}]}");
     const ProgramResult result =
         runProgram(render("builtin:slab", "out_%d.exr",
                           {"--deform", file("flat.json"), "--frames", "0:1", "--fps", "1"}));

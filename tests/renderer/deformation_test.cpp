@@ -151,9 +151,9 @@ AnimatedDeformer crookedLattice(const glm::ivec3& size, double amplitudeUnits) {
     lattice.kind = Deformer::Kind::Lattice;
     lattice.lattice.size = size;
     for (int i = 0; i < size.x * size.y * size.z; ++i) {
-        lattice.lattice.offsets.push_back(
-            amplitudeUnits *
-            glm::dvec3(std::sin(i * 1.7), std::cos(i * 2.3 + 1.0), std::sin(i * 0.9 + 2.0)));
+        lattice.lattice.offsets.push_back(amplitudeUnits * glm::dvec3(std::sin(i * 1.7),
+                                                                      std::cos(i * 2.3 + 1.0),
+                                                                      std::sin(i * 0.9 + 2.0)));
     }
     return lattice;
 }
@@ -166,7 +166,8 @@ TEST_F(DeformationTest, LatticesMatchDoublePrecision) {
     for (const glm::ivec3& size :
          {glm::ivec3(2), glm::ivec3(3, 4, 5), glm::ivec3(8), glm::ivec3(2, 8, 3)}) {
         motion.setDeformers({crookedLattice(size, 9.0)});
-        compare(rest, scene.gpuWorld, deformation, motion.at(0.0), fmt::format("{} along x", size.x));
+        compare(rest, scene.gpuWorld, deformation, motion.at(0.0),
+                fmt::format("{} along x", size.x));
     }
     // Two of them, and what has left the box before it meets the second.
     motion.setDeformers({crookedLattice({3, 3, 3}, 6.0), parseDeformer("bend:y:80"),
@@ -174,18 +175,20 @@ TEST_F(DeformationTest, LatticesMatchDoublePrecision) {
     compare(rest, scene.gpuWorld, deformation, motion.at(0.0), "a stack");
 }
 
-/// Handles at the low and the high end of the y axis; the upper one is dragged and turned.
+/// Handles at both ends of the longest axis; the upper one is dragged and turned.
 AnimatedDeformer twoHandles(const World& rest, double share) {
     AnimatedDeformer deformer;
     deformer.kind = Deformer::Kind::Handles;
     const Motion motion(rest);
     const RestBox box = motion.restBox();
+    const glm::dvec3 extent = box.high - box.low;
+    const int axis = extent.y >= std::max(extent.x, extent.z) ? 1 : extent.x >= extent.z ? 0 : 2;
     const double unit = rest.millimetersPerUnit;
-    const glm::dvec3 center = 0.5 * (box.low + box.high);
-    const double size = box.high.y - box.low.y;
-    for (const double y : {box.low.y, box.high.y}) {
+    const double size = extent[axis];
+    for (const double end : {box.low[axis], box.high[axis]}) {
         Handle handle;
-        handle.at = glm::dvec3(center.x, y, center.z) / unit;
+        handle.at = 0.5 * (box.low + box.high) / unit;
+        handle.at[axis] = end / unit;
         handle.radius = 0.12 * size / unit;
         deformer.handles.push_back(handle);
     }
@@ -209,11 +212,13 @@ TEST_F(DeformationTest, HandlesMatchDoublePrecision) {
             motion.setDeformers({twoHandles(rest, share)});
             compare(rest, scene.gpuWorld, deformation, motion.at(0.0), model);
         }
-        motion.setDeformers({parseDeformer("twist:y:60"), twoHandles(rest, 0.5),
-                             parseDeformer("inflate:0.7")});
-        compare(rest, scene.gpuWorld, deformation, motion.at(0.0), fmt::format("{}, twisted", model));
+        motion.setDeformers(
+            {parseDeformer("twist:y:60"), twoHandles(rest, 0.5), parseDeformer("inflate:0.7")});
+        compare(rest, scene.gpuWorld, deformation, motion.at(0.0),
+                fmt::format("{}, twisted", model));
         motion.setDeformers({});
-        compare(rest, scene.gpuWorld, deformation, motion.at(0.0), fmt::format("{} at rest", model));
+        compare(rest, scene.gpuWorld, deformation, motion.at(0.0),
+                fmt::format("{} at rest", model));
     }
 }
 

@@ -31,8 +31,8 @@ double albedo(const MaterialMap& map, int x, int y) {
         const double r = (i + 0.5) / kSteps * double(map.maxRadiusMm);
         const double knot = r / double(map.maxRadiusMm) * map.segments;
         const int k = std::min(static_cast<int>(knot), map.segments - 1);
-        const double log = std::lerp(double(map.logKnot(x, y, k).x),
-                                     double(map.logKnot(x, y, k + 1).x), knot - k);
+        const double log =
+            std::lerp(double(map.logKnot(x, y, k).x), double(map.logKnot(x, y, k + 1).x), knot - k);
         sum += 2.0 * std::numbers::pi * std::exp(log) * r * double(map.maxRadiusMm) / kSteps;
     }
     return sum;

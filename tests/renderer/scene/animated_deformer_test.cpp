@@ -34,8 +34,7 @@ TEST(KeyedNumbers, HoldTheirEndsAndStepOrRunStraightOrSmoothBetween) {
     EXPECT_EQ(linear.number(9.0), 30);
     // Through the points of a parabola the spline is that parabola, between inner keys.
     const auto p = [](double t) { return 3.0 - t + 2.0 * t * t; };
-    const auto cubic =
-        keyed(Interpolation::CubicSpline, {0, 1, 3, 4}, {p(0), p(1), p(3), p(4)});
+    const auto cubic = keyed(Interpolation::CubicSpline, {0, 1, 3, 4}, {p(0), p(1), p(3), p(4)});
     for (double t = 1.0; t <= 3.0; t += 0.25) {
         EXPECT_NEAR(cubic.number(t), p(t), 1e-12);
     }
@@ -47,7 +46,9 @@ TEST(KeyedNumbers, HoldTheirEndsAndStepOrRunStraightOrSmoothBetween) {
 
 TEST(KeyedNumbers, KeysAreSetMovedAndTakenAway) {
     KeyedNumbers keys = KeyedNumbers::of(5.0);
-    const auto set = [&](double seconds, double value) { keys.setKey(seconds, std::span(&value, 1)); };
+    const auto set = [&](double seconds, double value) {
+        keys.setKey(seconds, std::span(&value, 1));
+    };
     set(2.0, 20.0);
     EXPECT_EQ(keys.number(0.0), 20.0); // the constant is gone
     set(1.0, 10.0);
@@ -111,7 +112,8 @@ TEST_F(DeformerFile, SaysWhatEveryDeformerDoesAtATime) {
     EXPECT_EQ(handles[0].to, glm::dvec3(0, -10, 0));
     EXPECT_EQ(handles[0].radiusMm, 2.0);
     EXPECT_EQ(handles[1].to, glm::dvec3(5, 10, 0));
-    EXPECT_NEAR(glm::length(handles[1].turn * glm::dvec3(1, 0, 0) - glm::dvec3(0, 1, 0)), 0.0, 1e-12);
+    EXPECT_NEAR(glm::length(handles[1].turn * glm::dvec3(1, 0, 0) - glm::dvec3(0, 1, 0)), 0.0,
+                1e-12);
     EXPECT_EQ(stack[3].lastSeconds(), 3.0);
 }
 
@@ -125,7 +127,8 @@ TEST_F(DeformerFile, WhatIsWrongIsRefusedWithItsPlace) {
     expectRefusal(R"({"type": "twist", "axis": "y"})", "'angleDegrees' is missing");
     expectRefusal(R"({"type": "twist", "axis": "w", "angleDegrees": 3})", "'axis'");
     expectRefusal(R"({"type": "twist", "axis": "y", "angleDegrees": "3"})", "finite numbers");
-    expectRefusal(R"({"type": "twist", "axis": "y", "angleDegrees": 3, "range": [1, 0]})", "'range'");
+    expectRefusal(R"({"type": "twist", "axis": "y", "angleDegrees": 3, "range": [1, 0]})",
+                  "'range'");
     expectRefusal(R"({"type": "taper", "axis": "y", "scale": -1})", "inside out");
     expectRefusal(R"({"type": "wave", "axis": "y", "amplitudeMm": 1, "wavelengthMm": 0})",
                   "not positive");

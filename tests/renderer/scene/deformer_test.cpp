@@ -54,10 +54,11 @@ TEST(Deformer, NormalsFollowTheJacobian) {
     const glm::dvec3 n = glm::normalize(glm::dvec3(0.3, -0.5, 0.8));
     const glm::dvec3 u = glm::normalize(glm::cross(n, glm::dvec3(1, 0, 0)));
     const glm::dvec3 v = glm::cross(n, u);
-    const std::vector<Deformer> stack{parseDeformer("taper:x:0.4"), parseDeformer("twist:y:200"),
-                                      parseDeformer("bend:z:80"), parseDeformer("wave:y:4:25"),
-                                      parseDeformer("bend:x:50:0.4,0.5"), // beyond its range here
-                                      parseDeformer("twist:x:-70:0.2,0.9")};
+    const std::vector<Deformer> stack{
+        parseDeformer("taper:x:0.4"),        parseDeformer("twist:y:200"),
+        parseDeformer("bend:z:80"),          parseDeformer("wave:y:4:25"),
+        parseDeformer("bend:x:50:0.4,0.5"), // beyond its range here
+        parseDeformer("twist:x:-70:0.2,0.9")};
     ASSERT_EQ(stack.size(), 6u);
     for (std::size_t count = 1; count <= stack.size(); ++count) {
         const auto at = [&](const glm::dvec3& q) {
@@ -77,8 +78,8 @@ Lattice crookedLattice(const glm::ivec3& size) {
     Lattice lattice;
     lattice.size = size;
     for (int i = 0; i < size.x * size.y * size.z; ++i) {
-        lattice.offsets.push_back(5.0 * glm::dvec3(std::sin(i * 1.7), std::cos(i * 2.3 + 1.0),
-                                                   std::sin(i * 0.9 + 2.0)));
+        lattice.offsets.push_back(
+            5.0 * glm::dvec3(std::sin(i * 1.7), std::cos(i * 2.3 + 1.0), std::sin(i * 0.9 + 2.0)));
     }
     return lattice;
 }
@@ -228,10 +229,9 @@ TEST(Deformer, TextsAreParsedOrRefused) {
     EXPECT_EQ(parseDeformer("inflate:-3").amount, -3.0);
     EXPECT_EQ(parseDeformer("taper:y:2:0.2,0.9").range, glm::dvec2(0.2, 0.9));
     for (const char* const text :
-         {"", "twist", "twist:y", "twist:w:90", "twist:yy:90", "twist:y:90:1",
-          "twist:y:", "spin:y:9", "taper:x:-1", "wave:x:1:0", "wave:x:1", "inflate:x:1",
-          "inflate:nan", "bend:z:1e999", "twist:y:1,2", "twist:y:90:0.5", "twist:y:90:0.8,0.2",
-          "inflate:1:0,1"}) {
+         {"", "twist", "twist:y", "twist:w:90", "twist:yy:90", "twist:y:90:1", "twist:y:",
+          "spin:y:9", "taper:x:-1", "wave:x:1:0", "wave:x:1", "inflate:x:1", "inflate:nan",
+          "bend:z:1e999", "twist:y:1,2", "twist:y:90:0.5", "twist:y:90:0.8,0.2", "inflate:1:0,1"}) {
         EXPECT_THROW((void)parseDeformer(text), UsageError) << text;
     }
     const RestBox flat{{0, 0, 0}, {1, 0, 1}};

@@ -34,7 +34,9 @@ Mesh tube(int around, int along, const glm::vec3& offset = glm::vec3(0.0f)) {
                                   static_cast<float>(j) / static_cast<float>(along));
         }
     }
-    const auto at = [&](int i, int j) { return static_cast<std::uint32_t>(j * around + i % around); };
+    const auto at = [&](int i, int j) {
+        return static_cast<std::uint32_t>(j * around + i % around);
+    };
     for (int j = 0; j < along; ++j) {
         for (int i = 0; i < around; ++i) {
             mesh.indices.insert(mesh.indices.end(), {at(i, j), at(i, j + 1), at(i + 1, j),
@@ -102,7 +104,8 @@ TEST(SurfaceGraph, ClustersCoverTheSurfaceAndKeepItConnected) {
     EXPECT_GT(clusters.graph.triangles.size(), clusters.chosen.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
         ASSERT_LT(clusters.clusterOf[i], clusters.chosen.size());
-        // Nearest along the surface: not farther than the spacing, some 7 mm and the detour of edges.
+        // Nearest along the surface: not farther than the spacing, some 7 mm and the detour of
+        // edges.
         EXPECT_LT(glm::length(points[i] - clusters.graph.points[clusters.clusterOf[i]]), 9.0);
     }
 }
@@ -163,7 +166,8 @@ TEST(RigidSolver, NoIterationRaisesTheEnergyAndHandlesStayWhereTheyAreTold) {
     }
     // A bent tube keeps its girth: the ring half way is still about 20 mm wide.
     const std::size_t middle = 20 * 16;
-    EXPECT_NEAR(glm::length(solver.positions()[middle] - solver.positions()[middle + 8]), 20.0, 3.0);
+    EXPECT_NEAR(glm::length(solver.positions()[middle] - solver.positions()[middle + 8]), 20.0,
+                3.0);
 }
 
 TEST(HandleSolver, PartsThatShareNoVertexAreWeldedWhereTheyTouch) {
@@ -238,20 +242,23 @@ TEST(HandleSolver, LargeModelsFollowAProxySmoothly) {
     double farthest = 0.0;
     for (std::size_t j = 0; j <= 105; ++j) {
         for (std::size_t i = 0; i < 50; ++i) {
-            farthest = std::max(farthest, glm::length(a[2 * j * 100 + 2 * i].position -
-                                                      b[j * 50 + i].position));
+            farthest = std::max(
+                farthest, glm::length(a[2 * j * 100 + 2 * i].position - b[j * 50 + i].position));
         }
     }
-    EXPECT_LT(farthest, 2.5); // mm of 100: another triangulation, and neither has settled to the last
+    EXPECT_LT(farthest,
+              2.5); // mm of 100: another triangulation, and neither has settled to the last
     double worst = 0.0;
     double sum = 0.0;
     std::size_t count = 0;
-    for (std::size_t j = 30; j <= 180; ++j) { // not at the handles' edges, where the surface creases
+    for (std::size_t j = 30; j <= 180;
+         ++j) { // not at the handles' edges, where the surface creases
         for (std::size_t i = 0; i < 100; ++i) {
             const auto p = [&](std::size_t di, std::size_t dj) {
                 return a[(j + dj - 1) * 100 + (i + 99 + di) % 100].position;
             };
-            const glm::dvec3 seen = glm::normalize(glm::cross(p(1, 2) - p(1, 0), p(2, 1) - p(0, 1)));
+            const glm::dvec3 seen =
+                glm::normalize(glm::cross(p(1, 2) - p(1, 0), p(2, 1) - p(0, 1)));
             const std::size_t v = j * 100 + i;
             const glm::dvec3 carried =
                 glm::normalize(cofactors(a[v].jacobian) * glm::dvec3(mesh.normals[v]));
