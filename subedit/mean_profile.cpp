@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 namespace celadon::subedit {
 
@@ -20,53 +21,59 @@ constexpr int kSamples = kMeanProfileIntervals + 1;
 constexpr int kLanes = 8;
 constexpr int kPadded = (kSamples + kLanes - 1) / kLanes * kLanes;
 using SampleArray = std::array<float, kPadded>;
+using Eight = float __attribute__((vector_size(32))); // GCC and Clang alike
 
 /// Integral of P r dr over [start, start + width] for P linear from p0 to p1.
 double linearEnergy(double p0, double p1, double start, double width) {
     return width * (start * 0.5 * (p0 + p1) + width * (p0 / 6.0 + p1 / 3.0));
 }
 
-/// A run of samples on which the channels fall or rise by a constant factor from one to the next.
-struct Run {
-    int end;        ///< where the next one begins
-    float start[3]; ///< ln P of the channels at its first sample
-    float slope[3]; ///< what it changes by to the next sample
-};
+/// e^x of all that runs begin with and change by.
+CELADON_MULTIVERSION void exponentials(float* __restrict values, int count) {
+    for (int i = 0; i < count; ++i) {
+        values[i] = fastExp(values[i]);
+    }
+}
 
-/// Fills in the samples of runs, the channels summed, and measures them.
-/// @param runs    the last ends at kSamples or before: what follows is zero
+/// Fills in the samples of runs, the channels summed, and measures them. On a run the channels
+/// change by a constant factor from one sample to the next.
+/// @param start   of each run: P of the channels at its first sample, then those factors
+/// @param end     of each run; the last ends at kSamples or before: what follows is zero
 /// @param samples kPadded values
 /// @return        sum of sample times index
-CELADON_MULTIVERSION float fillRuns(const Run* __restrict runs, int count,
-                                    float* __restrict samples) {
+CELADON_MULTIVERSION float fillRuns(const float* __restrict start, const int* __restrict end,
+                                    int runs, float* __restrict samples) {
     float indexed = 0.0f;
     int i = 0;
-    for (const Run* run = runs; run != runs + count; ++run) {
-        // P at eight samples at once, and the factor to the next eight.
-        alignas(32) float p[3][kLanes];
-        float step[3];
+    for (int run = 0; run < runs; ++run, start += 6) {
+        // P at eight samples at once, and the factor to the next eight: one after the other each
+        // product would wait for the one before.
+        Eight p[3];
+        Eight step[3];
         for (int c = 0; c < 3; ++c) {
-            for (int j = 0; j < kLanes; ++j) {
-                p[c][j] = fastExp(run->start[c] + run->slope[c] * static_cast<float>(j));
-            }
-            step[c] = fastExp(run->slope[c] * kLanes);
+            const float ratio = start[3 + c];
+            const float r2 = ratio * ratio;
+            const float r3 = r2 * ratio;
+            const float r4 = r2 * r2;
+            p[c] = Eight{1.0f, ratio, r2, r3, r4, r4 * ratio, r4 * r2, r4 * r3} * start[c];
+            step[c] = Eight{} + r4 * r4;
         }
-        float total[kLanes] = {};
-        const int last = run->end;
+        const int last = end[run];
+        Eight index = Eight{0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f} + static_cast<float>(i);
+        Eight total{};
         for (; i + kLanes <= last; i += kLanes) {
-            for (int j = 0; j < kLanes; ++j) {
-                const float sum = p[0][j] + p[1][j] + p[2][j];
-                samples[i + j] = sum;
-                total[j] += sum * static_cast<float>(i + j);
-                p[0][j] *= step[0];
-                p[1][j] *= step[1];
-                p[2][j] *= step[2];
+            const Eight sum = p[0] + p[1] + p[2];
+            std::memcpy(samples + i, &sum, sizeof(sum));
+            total += sum * index;
+            index += static_cast<float>(kLanes);
+            for (int c = 0; c < 3; ++c) {
+                p[c] *= step[c];
             }
         }
+        const Eight sum = p[0] + p[1] + p[2];
         for (int j = 0; i < last; ++i, ++j) {
-            const float sum = p[0][j] + p[1][j] + p[2][j];
-            samples[i] = sum;
-            indexed += sum * static_cast<float>(i);
+            samples[i] = sum[j];
+            indexed += sum[j] * static_cast<float>(i);
         }
         indexed += ((total[0] + total[4]) + (total[1] + total[5])) +
                    ((total[2] + total[6]) + (total[3] + total[7]));
@@ -85,15 +92,16 @@ CELADON_MULTIVERSION void addScaled(const float* __restrict samples, float scale
 }
 
 /// Samples the summed channels of texels at r_i = i / N in units of R_P. Within a segment the
-/// samples of ln P are equally spaced: P is multiplied by a constant from one to the next, and few
-/// exponentials are needed.
+/// samples of ln P are equally spaced: P is multiplied by a constant from one to the next, and two
+/// exponentials per segment and channel are enough.
 class TexelSampler {
 public:
     /// Adds C P, C such that the integral of P r dr over [0, 1] is 1 (by trapezoids: exact enough
     /// for a weight).
     void add(const float* logProfile, int segments, float samplesPerSegment, float* sum) {
         const int count = layOut(logProfile, segments, samplesPerSegment);
-        float indexed = fillRuns(mRuns.data(), count, mSamples.data());
+        exponentials(mStart.data(), count * 6);
+        float indexed = fillRuns(mStart.data(), mEnd.data(), count, mSamples.data());
         indexed -= 0.5f * mSamples[kMeanProfileIntervals] * kMeanProfileIntervals;
         constexpr float kPerIndex =
             1.0f / (static_cast<float>(kMeanProfileIntervals) * kMeanProfileIntervals);
@@ -117,19 +125,20 @@ private:
                 continue;
             }
             const float t = static_cast<float>(i) * segmentsPerSample - static_cast<float>(k);
-            Run& run = mRuns[static_cast<std::size_t>(used++)];
+            float* start = mStart.data() + used * 6;
             for (int channel = 0; channel < 3; ++channel) {
                 const float slope = logProfile[3 + channel] - logProfile[channel];
-                run.start[channel] = logProfile[channel] + slope * t;
-                run.slope[channel] = slope * segmentsPerSample;
+                start[channel] = logProfile[channel] + slope * t;
+                start[3 + channel] = slope * segmentsPerSample;
             }
-            run.end = end;
+            mEnd[static_cast<std::size_t>(used++)] = end;
             i = end;
         }
         return used;
     }
 
-    std::array<Run, kMaxSegments> mRuns;
+    std::array<float, kMaxSegments * 6> mStart; ///< logarithms, then what they are the logs of
+    std::array<int, kMaxSegments> mEnd;
     SampleArray mSamples;
 };
 
