@@ -46,8 +46,14 @@ float sideBarWidth(float windowWidth, float scale) {
 }
 
 void drawTabs(LayoutState& state) {
-    const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
-    const float each = (ImGui::GetContentRegionAvail().x - gap * (kTabs.size() - 1)) / kTabs.size();
+    // As wide as the words, and the rest shared.
+    const float gap = 2.0f;
+    float rest = ImGui::GetContentRegionAvail().x - gap * (kTabs.size() - 1);
+    for (const Named& named : kTabs) {
+        rest -= ImGui::CalcTextSize(named.label).x;
+    }
+    const float margin = std::max(rest / kTabs.size(), 0.0f);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.0f, ImGui::GetStyle().FramePadding.y});
     for (const Named& named : kTabs) {
         if (named.tab != kTabs.front().tab) {
             ImGui::SameLine(0.0f, gap);
@@ -55,11 +61,12 @@ void drawTabs(LayoutState& state) {
         const bool isCurrent = named.tab == state.tab;
         ImGui::PushStyleColor(ImGuiCol_Button,
                               isCurrent ? colors::kAccentDim : ImVec4(0.0f, 0.0f, 0.0f, 0.0f));
-        if (ImGui::Button(named.label, {each, 0.0f})) {
+        if (ImGui::Button(named.label, {ImGui::CalcTextSize(named.label).x + margin, 0.0f})) {
             state.tab = named.tab;
         }
         ImGui::PopStyleColor();
     }
+    ImGui::PopStyleVar();
 }
 
 void drawPanel(const LayoutContext& context) {
@@ -92,7 +99,8 @@ void drawSideBar(const LayoutContext& context) {
     if (ImGui::Begin("##side", nullptr, kFixedWindow)) {
         drawTabs(state);
         ImGui::Separator();
-        if (ImGui::BeginChild("##panel") && context.session.hasWorld()) {
+        const char* const panel = kTabs[static_cast<std::size_t>(state.tab)].label; // scrolls alone
+        if (ImGui::BeginChild(panel) && context.session.hasWorld()) {
             drawPanel(context);
             if (state.scrollTo) {
                 ImGui::SetScrollY(static_cast<float>(*state.scrollTo) * ImGui::GetScrollMaxY());
