@@ -70,7 +70,7 @@ void addWindow(CLI::App& app, EditOptions& o) {
     static constexpr std::array<std::string_view, 3> kQualities{"draft", "default", "final"};
     addOption(app, "--quality", {group, "draft|default|final", "How fine pictures get at rest"},
               [&e](const Argument& a) {
-                  e.finest = static_cast<celadon::Quality>(1 + parseChoice(a, kQualities));
+                  e.finest = static_cast<celadon::Quality>(parseChoice(a, kQualities));
               });
     addOption(app, "--exposure", {group, "EV", "Brightness in stops; default 0"},
               takeNumber(o.exposureEv, {-20.0, 20.0, false}));
