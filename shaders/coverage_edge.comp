@@ -34,6 +34,7 @@ vec4 searchAround(ivec2 pixel, vec2 place, vec3 position, vec3 normal, float mes
                 float plane = max(abs(dot(offset, normal)), abs(dot(offset, n.xyz))) / width;
                 float w = near * exp(-4.0 * plane) * exp(-0.5 * dot(offset, offset) / (width * width * 4.0 * float(reach * reach)))
                           * max(dot(normal, n.xyz), 0.0) + (reach > 1 ? 1e-9 : 0.0);
+                w *= clamp(dot(n.xyz, directionToEye(p.xyz)) / slanting, 0.02, 1.0);
                 sum += w * vec4(texelFetch(radiance, t, 0).rgb, 1.0);
             }
         }

@@ -12,6 +12,8 @@ layout(binding = 3) uniform sampler2DMS samples; // view depth of the surface's 
 
 layout(rgba32f, binding = 0) uniform image2D color; // premultiplied; alpha is coverage
 
+const float slanting = 0.25; // cosine of normal and view below which a pixel center stands for little
+
 // Pixels that the first pass leaves to the second, and their groups of 64.
 layout(std430, binding = 0) restrict buffer Edges {
     uint groups[3];
