@@ -115,7 +115,7 @@ void edit(EditOptions o) {
         options.model = request.model;
         options.material =
             request.material.empty() ? std::nullopt : std::optional(request.material);
-        return readWorld(options, 0);
+        return readWorld(options, 0, request.readInstead);
     };
     e.services.isPaintable = !e.viewOnly;
     e.place = [scene, exposure = o.exposureEv](ui::Session& session) {

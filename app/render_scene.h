@@ -3,6 +3,8 @@
 #include "app/render_options.h"
 #include "renderer/scene/world.h"
 
+#include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -16,8 +18,13 @@ namespace celadon::app {
 /// warnings.
 [[nodiscard]] MaterialPointer readMaterialArgument(const std::string& nameOrPath);
 
+/// Files that are read in place of others, both by absolute paths.
+using ReadInstead = std::map<std::filesystem::path, std::filesystem::path>;
+
 /// Everything that frame `frame` shows: patterns in model and material are filled in.
-[[nodiscard]] World readWorld(const RenderOptions& options, int frame);
+/// @param readInstead of material files
+[[nodiscard]] World readWorld(const RenderOptions& options, int frame,
+                              const ReadInstead& readInstead = {});
 
 /// Camera in mm for the picture's aspect.
 [[nodiscard]] Camera cameraOf(const RenderOptions& options, const World& world);

@@ -10,132 +10,128 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
 namespace celadon::subedit {
 
 namespace {
 
 constexpr int kSamples = kMeanProfileIntervals + 1;
-using SampleArray = std::array<float, kSamples>;
-using Four = float __attribute__((vector_size(16))); // GCC and Clang alike
+/// Samples are made and summed this many at a time; arrays of them are padded to a whole number.
+constexpr int kLanes = 8;
+constexpr int kPadded = (kSamples + kLanes - 1) / kLanes * kLanes;
+using SampleArray = std::array<float, kPadded>;
 
 /// Integral of P r dr over [start, start + width] for P linear from p0 to p1.
 double linearEnergy(double p0, double p1, double start, double width) {
     return width * (start * 0.5 * (p0 + p1) + width * (p0 / 6.0 + p1 / 3.0));
 }
 
-/// e^x of an array.
-CELADON_MULTIVERSION void exponentials(const float* __restrict x, int count,
-                                       float* __restrict out) {
-    for (int i = 0; i < count; ++i) {
-        out[i] = fastExp(x[i]);
+/// A run of samples on which the channels fall or rise by a constant factor from one to the next.
+struct Run {
+    int end;        ///< where the next one begins
+    float start[3]; ///< ln P of the channels at its first sample
+    float slope[3]; ///< what it changes by to the next sample
+};
+
+/// Fills in the samples of runs, the channels summed, and measures them.
+/// @param runs    the last ends at kSamples or before: what follows is zero
+/// @param samples kPadded values
+/// @return        sum of sample times index
+CELADON_MULTIVERSION float fillRuns(const Run* __restrict runs, int count,
+                                    float* __restrict samples) {
+    float indexed = 0.0f;
+    int i = 0;
+    for (const Run* run = runs; run != runs + count; ++run) {
+        // P at eight samples at once, and the factor to the next eight.
+        alignas(32) float p[3][kLanes];
+        float step[3];
+        for (int c = 0; c < 3; ++c) {
+            for (int j = 0; j < kLanes; ++j) {
+                p[c][j] = fastExp(run->start[c] + run->slope[c] * static_cast<float>(j));
+            }
+            step[c] = fastExp(run->slope[c] * kLanes);
+        }
+        float total[kLanes] = {};
+        const int last = run->end;
+        for (; i + kLanes <= last; i += kLanes) {
+            for (int j = 0; j < kLanes; ++j) {
+                const float sum = p[0][j] + p[1][j] + p[2][j];
+                samples[i + j] = sum;
+                total[j] += sum * static_cast<float>(i + j);
+                p[0][j] *= step[0];
+                p[1][j] *= step[1];
+                p[2][j] *= step[2];
+            }
+        }
+        for (int j = 0; i < last; ++i, ++j) {
+            const float sum = p[0][j] + p[1][j] + p[2][j];
+            samples[i] = sum;
+            indexed += sum * static_cast<float>(i);
+        }
+        indexed += ((total[0] + total[4]) + (total[1] + total[5])) +
+                   ((total[2] + total[6]) + (total[3] + total[7]));
+    }
+    for (; i < kPadded; ++i) {
+        samples[i] = 0.0f; // beyond r_s
+    }
+    return indexed;
+}
+
+CELADON_MULTIVERSION void addScaled(const float* __restrict samples, float scale,
+                                    float* __restrict sum) {
+    for (int i = 0; i < kPadded; ++i) {
+        sum[i] += samples[i] * scale;
     }
 }
 
 /// Samples the summed channels of texels at r_i = i / N in units of R_P. Within a segment the
-/// samples of ln P are equally spaced: P is multiplied by a constant from one to the next, and two
-/// exponentials per segment and channel are enough.
+/// samples of ln P are equally spaced: P is multiplied by a constant from one to the next, and few
+/// exponentials are needed.
 class TexelSampler {
 public:
-    void sample(const float* logProfile, int segments, float samplesPerSegment,
-                SampleArray& samples) {
-        const int used = layOut(logProfile, segments, samplesPerSegment);
-        exponentials(mExponent.data(), used * 6, mExponential.data());
-        int i = 0;
-        for (int k = 0; k < used; ++k) {
-            i = fill(mExponential.data() + k * 6, i, mEnd[static_cast<std::size_t>(k)],
-                     samples.data());
-        }
-        std::fill(samples.begin() + i, samples.end(), 0.0f); // beyond r_s
+    /// Adds C P, C such that the integral of P r dr over [0, 1] is 1 (by trapezoids: exact enough
+    /// for a weight).
+    void add(const float* logProfile, int segments, float samplesPerSegment, float* sum) {
+        const int count = layOut(logProfile, segments, samplesPerSegment);
+        float indexed = fillRuns(mRuns.data(), count, mSamples.data());
+        indexed -= 0.5f * mSamples[kMeanProfileIntervals] * kMeanProfileIntervals;
+        constexpr float kPerIndex =
+            1.0f / (static_cast<float>(kMeanProfileIntervals) * kMeanProfileIntervals);
+        addScaled(mSamples.data(), 1.0f / std::max(indexed * kPerIndex, 1e-30f), sum);
     }
 
 private:
-    /// Samples from `i` to `end` of one segment, four at a time: one after the other each product
-    /// would wait for the one before.
-    /// @param start P of the channels at the first sample, then what they change by to the next
-    /// @return      `end`
-    static int fill(const float* start, int i, int end, float* samples) {
-        std::array<Four, 3> p;
-        std::array<Four, 3> step;
-        for (std::size_t c = 0; c < 3; ++c) {
-            const float ratio = start[3 + c];
-            const float squared = ratio * ratio;
-            p[c] = Four{1.0f, ratio, squared, squared * ratio} * start[c];
-            const float fourth = squared * squared;
-            step[c] = Four{fourth, fourth, fourth, fourth};
-        }
-        for (; i + 4 <= end; i += 4) {
-            const Four sum = p[0] + p[1] + p[2];
-            std::memcpy(samples + i, &sum, sizeof(sum));
-            for (std::size_t c = 0; c < 3; ++c) {
-                p[c] *= step[c];
-            }
-        }
-        const Four sum = p[0] + p[1] + p[2];
-        for (int j = 0; i < end; ++i, ++j) {
-            samples[i] = sum[j];
-        }
-        return end;
-    }
-
-    /// ln P at the first sample of each segment and its change per sample, for the segments that
-    /// have samples at all. @return their number
+    /// A run for each segment that has samples at all. @return their number
     int layOut(const float* logProfile, int segments, float samplesPerSegment) {
         const float segmentsPerSample = 1.0f / samplesPerSegment;
         int used = 0;
         int i = 0;
         for (int k = 0; k < segments && i < kSamples; ++k, logProfile += 3) {
             const float border = static_cast<float>(k + 1) * samplesPerSegment;
-            const int end = border < static_cast<float>(kSamples)
-                                ? static_cast<int>(std::ceil(border))
-                                : kSamples;
+            int end = kSamples;
+            if (border < static_cast<float>(kSamples)) {
+                end = static_cast<int>(border);
+                end += static_cast<float>(end) < border ? 1 : 0;
+            }
             if (i >= end) {
                 continue;
             }
             const float t = static_cast<float>(i) * segmentsPerSample - static_cast<float>(k);
-            float* exponent = mExponent.data() + used * 6;
+            Run& run = mRuns[static_cast<std::size_t>(used++)];
             for (int channel = 0; channel < 3; ++channel) {
                 const float slope = logProfile[3 + channel] - logProfile[channel];
-                exponent[channel] = logProfile[channel] + slope * t;
-                exponent[3 + channel] = slope * segmentsPerSample;
+                run.start[channel] = logProfile[channel] + slope * t;
+                run.slope[channel] = slope * segmentsPerSample;
             }
-            mEnd[static_cast<std::size_t>(used++)] = end;
+            run.end = end;
             i = end;
         }
         return used;
     }
 
-    std::array<float, kMaxSegments * 6> mExponent;
-    std::array<float, kMaxSegments * 6> mExponential;
-    std::array<int, kMaxSegments> mEnd;
+    std::array<Run, kMaxSegments> mRuns;
+    SampleArray mSamples;
 };
-
-/// Energy of a texel's samples, to the accuracy that C needs (trapezoids of P r).
-float trapezoidEnergy(const SampleArray& samples) {
-    static_assert(kMeanProfileIntervals % 8 == 0);
-    std::array<Four, 2> sum{}; // that do not wait for each other
-    std::array<Four, 2> index{Four{0.0f, 1.0f, 2.0f, 3.0f}, Four{4.0f, 5.0f, 6.0f, 7.0f}};
-    for (std::size_t i = 0; i < kMeanProfileIntervals; i += 8) {
-        for (std::size_t half = 0; half < 2; ++half) {
-            Four p;
-            std::memcpy(&p, samples.data() + i + 4 * half, sizeof(p));
-            sum[half] += p * index[half];
-            index[half] += 8.0f;
-        }
-    }
-    const Four both = sum[0] + sum[1];
-    const float ends = 0.5f * samples[kMeanProfileIntervals] * kMeanProfileIntervals;
-    return ((both[0] + both[1]) + (both[2] + both[3]) + ends) /
-           (static_cast<float>(kMeanProfileIntervals) * kMeanProfileIntervals);
-}
-
-CELADON_MULTIVERSION void addScaled(const float* __restrict samples, float scale,
-                                    float* __restrict sum) {
-    for (int i = 0; i < kSamples; ++i) {
-        sum[i] += samples[i] * scale;
-    }
-}
 
 } // namespace
 
@@ -183,7 +179,8 @@ MeanProfileSums::MeanProfileSums(const MaterialMap& map, std::span<const float> 
 }
 
 void MeanProfileSums::update(const MaterialMap& map, std::span<const float> effectiveRadiusMm,
-                             std::span<const TexelRect> rects) {
+                             std::span<const TexelRect> rects,
+                             const std::function<void(const TexelRect&)>& beforeTile) {
     CELADON_ASSERT(effectiveRadiusMm.size() ==
                    static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
     std::vector<int> tiles;
@@ -211,7 +208,12 @@ void MeanProfileSums::update(const MaterialMap& map, std::span<const float> effe
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), 4),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                           for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                              sumTile(map, effectiveRadiusMm, tiles[i]);
+                              const TexelRect tile = tileRect(map, tiles[i]);
+                              if (beforeTile) {
+                                  beforeTile(tile);
+                              }
+                              sumTile(map, effectiveRadiusMm, tile,
+                                      mTiles[static_cast<std::size_t>(tiles[i])]);
                           }
                       });
     tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
@@ -226,28 +228,29 @@ void MeanProfileSums::update(const MaterialMap& map, std::span<const float> effe
     });
 }
 
+TexelRect MeanProfileSums::tileRect(const MaterialMap& map, int tile) const {
+    const int x = tile % mTilesX * kTileSize;
+    const int y = tile / mTilesX * kTileSize;
+    return {x, y, std::min(map.width - x, kTileSize), std::min(map.height - y, kTileSize)};
+}
+
 void MeanProfileSums::sumTile(const MaterialMap& map, std::span<const float> effectiveRadiusMm,
-                              int tile) {
+                              const TexelRect& rect, Sum& result) {
     const auto stride = static_cast<std::size_t>(map.knots()) * 3;
     const float h = map.maxRadiusMm / static_cast<float>(map.segments);
-    const int left = tile % mTilesX * kTileSize;
-    const int top = tile / mTilesX * kTileSize;
-    Sum& sum = mTiles[static_cast<std::size_t>(tile)];
-    sum.fill(0.0f);
-    Sum samples;
+    alignas(32) SampleArray sum{};
     TexelSampler sampler;
-    for (int y = top; y < std::min(map.height, top + kTileSize); ++y) {
-        for (int x = left; x < std::min(map.width, left + kTileSize); ++x) {
+    for (int y = rect.y; y < rect.bottom(); ++y) {
+        for (int x = rect.x; x < rect.right(); ++x) {
             const std::size_t texel =
                 static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
                 static_cast<std::size_t>(x);
             const float samplesPerSegment = h / effectiveRadiusMm[texel] * kMeanProfileIntervals;
-            sampler.sample(map.logProfile.data() + texel * stride, map.segments, samplesPerSegment,
-                           samples);
-            const float scale = 1.0f / std::max(trapezoidEnergy(samples), 1e-30f);
-            addScaled(samples.data(), scale, sum.data());
+            sampler.add(map.logProfile.data() + texel * stride, map.segments, samplesPerSegment,
+                        sum.data());
         }
     }
+    std::copy_n(sum.begin(), kSamples, result.begin());
 }
 
 MeanProfile MeanProfileSums::mean() const {

@@ -13,12 +13,14 @@ namespace celadon::subedit {
 struct MediumPreset {
     std::string_view name;
     Medium medium;
-    glm::dvec3 dipoleTotal; ///< total diffuse reflectance by the dipole, two decimals (a check)
     std::string_view description;
-    std::string_view source = "Jensen et al. 2001"; ///< where the coefficients are from
+    std::string_view source; ///< where the coefficients are from
+    /// Mean cosine g per channel where it was measured, else 0. The medium's own `anisotropy` is 0:
+    /// by similarity sigma_s' is all that a diffuse profile depends on.
+    glm::dvec3 measuredAnisotropy{0.0};
 };
 
-/// The twelve media of Jensen, Marschner, Levoy, Hanrahan 2001, in alphabetical order.
+/// Twelve media of Jensen et al. 2001 and fifteen of Narasimhan et al. 2006, in alphabetical order.
 [[nodiscard]] std::span<const MediumPreset> mediumPresets();
 
 /// Those with `word` in their name, description or source, in any case; all for an empty word.

@@ -1,11 +1,14 @@
 #include "subedit/range_table.h"
 
 #include "subedit/assert.h"
+#include "subedit/multiversion.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace celadon::subedit {
 
@@ -30,6 +33,33 @@ double largestSamplingError(const MeanProfile& profile, double T) {
     return (variation + highest) / T;
 }
 
+constexpr int kMostPhases = 256;
+constexpr int kLanes = kMostPhases + 1;
+
+/// Adds the next term P r to the sums of all phases, and gives how far each is from the integral.
+/// @param samples, beyond of the mean profile, `intervals` + 1 values
+/// @param offset  of each phase below `top`: its r is top - offset, >= 0
+CELADON_MULTIVERSION void addTerm(const double* __restrict samples, const double* __restrict beyond,
+                                  int intervals, const double* __restrict offset, int count,
+                                  double top, double step, double* __restrict sum,
+                                  double* __restrict error) {
+    const double width = 1.0 / intervals;
+    for (int i = 0; i < count; ++i) {
+        const double r = top - offset[i];
+        const double position = r * intervals;
+        const int k = std::min(static_cast<int>(position), intervals - 1);
+        const double t = position - k;
+        const double end = samples[k + 1];
+        const double p = samples[k] + (end - samples[k]) * t;
+        // As MeanProfile::at(): the rest of the interval, on which P is linear, and all beyond.
+        const double rest = (1.0 - t) * width;
+        const double integral =
+            beyond[k + 1] + rest * (r * 0.5 * (p + end) + rest * (p * (1.0 / 6) + end * (1.0 / 3)));
+        sum[i] += p * r;
+        error[i] = std::abs(sum[i] * step - integral);
+    }
+}
+
 } // namespace
 
 double samplingError(const MeanProfile& profile, double T, double rPrime) {
@@ -50,34 +80,44 @@ double minimalRadius(const MeanProfile& profile, double T, double epsilon) {
     if (largestSamplingError(profile, T) < epsilon) {
         return 0.0; // fine sampling: what the search below would find, at a thousandth of its cost
     }
-    // All r' that are a whole number of steps and a phase below 1 share their terms: one pass down
-    // from 1 per phase, each pass only as far down as the others have left in question. The phase
-    // just short of a step is the limit in which the term at r = 1 has just dropped out.
-    const int phases = std::clamp(static_cast<int>(std::ceil(2048.0 / T)), 16, 256);
+    // All r' that are a whole number of steps and a phase below 1 share their terms. One row of
+    // phases after the other, down from 1: the first r' that fails is the highest of those looked
+    // at. The phase just short of a step is the limit in which the term at r = 1 has just dropped
+    // out.
+    const int phases = std::clamp(static_cast<int>(std::ceil(1024.0 / T)), 16, kMostPhases);
     const double step = 1.0 / T;
-    double radius = 0.0; // every r' above it that was looked at is good
-    for (int i = 0; i <= phases; ++i) {
-        const double phase = i < phases ? step * i / phases : step * (1.0 - 1e-6);
-        double sum = profile.value(1.0 - phase) * (1.0 - phase);
-        for (int m = 1;; ++m) {
-            const double rPrime = 1.0 - phase - m * step;
-            if (rPrime < radius || rPrime < 0.0) {
-                break;
-            }
-            const MeanProfile::Point point = profile.at(rPrime);
-            sum += point.value * rPrime;
-            if (std::abs(sum * step - point.energyBeyond) >= epsilon) {
-                // The next r' looked at above this one is up to a phase away: stay on its safe
-                // side.
-                radius = i == 0 && m == 1 ? 1.0 : rPrime + step / phases;
-                break;
-            }
+    std::array<double, kLanes> offset;
+    std::array<double, kLanes> sum{};
+    std::array<double, kLanes> error;
+    for (int i = 0; i < phases; ++i) {
+        offset[static_cast<std::size_t>(i)] = step * i / phases;
+    }
+    offset[static_cast<std::size_t>(phases)] = step * (1.0 - 1e-6);
+    int count = phases + 1;
+    for (int m = 0;; ++m) {
+        const double top = 1.0 - m * step;
+        while (count > 0 && top < offset[static_cast<std::size_t>(count - 1)]) {
+            --count;
         }
-        if (radius >= 1.0) {
-            return 1.0;
+        if (count == 0) {
+            return 0.0;
+        }
+        addTerm(profile.samples().data(), profile.samplesBeyond().data(),
+                static_cast<int>(profile.samples().size()) - 1, offset.data(), count, top, step,
+                sum.data(), error.data());
+        if (m == 0) {
+            continue; // no whole step below 1
+        }
+        const double* const end = error.data() + count;
+        const double* const bad =
+            std::find_if(std::as_const(error).data(), end, [&](double e) { return e >= epsilon; });
+        if (bad != end) {
+            const auto i = static_cast<std::size_t>(bad - error.data());
+            // The next r' above this one that was looked at is up to a phase away: stay on its safe
+            // side.
+            return i == 0 && m == 1 ? 1.0 : std::min(top - offset[i] + step / phases, 1.0);
         }
     }
-    return radius;
 }
 
 RangeTable RangeTable::build(const MeanProfile& profile, double epsilon) {

@@ -1,6 +1,7 @@
 #include "subedit/texel_energy.h"
 
 #include "subedit/fast_exp.h"
+#include "subedit/fast_log.h"
 #include "subedit/multiversion.h"
 
 #include <algorithm>
@@ -54,11 +55,24 @@ TexelEnergy::TexelEnergy(int segments) : mSegments(segments) {
 void TexelEnergy::compute(const float* logProfile) {
     const int count = mSegments * 3;
     computeEnergies(logProfile, count, mIndex.data(), mValue.data(), mEnergy.data());
-    mTotal = {};
-    for (int i = 0; i < count; i += 3) {
-        mTotal[0] += mEnergy[i];
-        mTotal[1] += mEnergy[i + 1];
-        mTotal[2] += mEnergy[i + 2];
+    addUp();
+}
+
+void TexelEnergy::computeFirst(const float* logProfile) {
+    computeEnergies(logProfile, 3, mIndex.data(), mValue.data(), mEnergy.data());
+    addUp();
+}
+
+void TexelEnergy::addUp() {
+    std::array<float, kLanes> lanes{};
+    for (int i = 0; i < mSegments * 3; i += kLanes) {
+        for (int j = 0; j < kLanes; ++j) {
+            lanes[static_cast<std::size_t>(j)] += mEnergy[static_cast<std::size_t>(i + j)];
+        }
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+        mTotal[c] = ((lanes[c] + lanes[c + 12]) + (lanes[c + 6] + lanes[c + 18])) +
+                    ((lanes[c + 3] + lanes[c + 15]) + (lanes[c + 9] + lanes[c + 21]));
     }
 }
 
@@ -81,34 +95,58 @@ float TexelEnergy::channelRadius(const float* logProfile, int channel, float fra
     return static_cast<float>(k) + invert(logProfile, k, channel, remaining);
 }
 
+float TexelEnergy::radiusBound(int channel, float fraction, float blackTotal) const {
+    if (mTotal[channel] < blackTotal) {
+        return 0.0f;
+    }
+    float remaining = mTotal[channel] * fraction;
+    return static_cast<float>(segmentHolding(channel, remaining) + 1);
+}
+
 float TexelEnergy::radius(const float* logProfile, float fraction, float blackTotal) const {
-    float largest = 0.0f;
-    for (int channel = 0; channel < 3; ++channel) {
-        if (mTotal[channel] < blackTotal) {
-            continue;
+    // Only channels that reach into the farthest segment can be the largest.
+    int farthest = -1;
+    std::array<int, 3> segment;
+    std::array<float, 3> remaining;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        segment[channel] = -1;
+        if (mTotal[channel] >= blackTotal) {
+            remaining[channel] = mTotal[channel] * fraction;
+            segment[channel] = segmentHolding(static_cast<int>(channel), remaining[channel]);
+            farthest = std::max(farthest, segment[channel]);
         }
-        float remaining = mTotal[channel] * fraction;
-        const int k = segmentHolding(channel, remaining);
-        if (static_cast<float>(k + 1) > largest) { // else another channel reaches farther
-            largest = std::max(largest,
-                               static_cast<float>(k) + invert(logProfile, k, channel, remaining));
+    }
+    float largest = 0.0f;
+    for (std::size_t channel = 0; channel < 3 && farthest >= 0; ++channel) {
+        if (segment[channel] == farthest) {
+            largest = std::max(largest, static_cast<float>(farthest) +
+                                            invert(logProfile, farthest, static_cast<int>(channel),
+                                                   remaining[channel]));
         }
     }
     return largest;
 }
 
-/// Newton from the point where the energy would be with P constant, inside a bracket.
+/// Newton inside a bracket, from where the energy would be if its density (k + t) e^(b t) were an
+/// exponential: that of the same logarithmic slope at the middle.
 float TexelEnergy::invert(const float* logProfile, int k, int channel, float energy) const {
     const int i = k * 3 + channel;
-    const float p0 = mValue[i];
-    const float b = logProfile[i + 3] - logProfile[i];
-    const float start = static_cast<float>(k);
     if (energy >= mEnergy[i]) {
         return 1.0f;
     }
+    const float p0 = mValue[i];
+    const float b = logProfile[i + 3] - logProfile[i];
+    const float start = static_cast<float>(k);
+    const float part = energy / mEnergy[i];
+    // From r = 0 the density rises as r does, and the energy as its square.
+    const float slope = b + 1.0f / (start + 0.5f);
+    const float e = fastExp(slope);
+    float t = k == 0                    ? std::sqrt(part)
+              : std::abs(slope) < 1e-2f ? part
+                                        : fastLog(1.0f + part * (e - 1.0f)) / slope;
+    t = std::clamp(t, 1e-3f, 0.999f);
     float low = 0.0f;
     float high = 1.0f;
-    float t = std::clamp(energy / mEnergy[i], 0.05f, 0.95f);
     for (int iteration = 0; iteration < 12; ++iteration) {
         const float z = b * t;
         const float p = p0 * fastExp(z);
@@ -124,10 +162,12 @@ float TexelEnergy::invert(const float* logProfile, int k, int channel, float ene
         const float excess = t * (start * m0 + t * m1) - energy;
         (excess > 0.0f ? high : low) = t;
         float next = t - excess / std::max(p * (start + t), 1e-30f);
-        if (!(next > low && next < high)) {
+        const bool isNewton = next > low && next < high;
+        if (!isNewton) {
             next = 0.5f * (low + high);
         }
-        const bool converged = std::abs(next - t) < 1e-5f * (start + next);
+        // Each step squares the error: after one this small nothing is left to gain.
+        const bool converged = isNewton && std::abs(next - t) < 1e-3f * (start + next);
         t = next;
         if (converged) {
             break;

@@ -21,9 +21,21 @@ public:
 
     /// @param logProfile (segments + 1) x 3 values of ln P, channel fastest
     void compute(const float* logProfile);
+    /// The same where only the first knot is another than it was.
+    void computeFirst(const float* logProfile);
 
     [[nodiscard]] float total(int channel) const {
         return mTotal[static_cast<std::size_t>(channel)];
+    }
+
+    /// Energy of the first segment.
+    [[nodiscard]] float first(int channel) const {
+        return mEnergy[static_cast<std::size_t>(channel)];
+    }
+
+    /// P at r = 0.
+    [[nodiscard]] float value(int channel) const {
+        return mValue[static_cast<std::size_t>(channel)];
     }
 
     /// Diffuse albedo for knots h mm apart.
@@ -37,6 +49,10 @@ public:
     [[nodiscard]] float channelRadius(const float* logProfile, int channel, float fraction,
                                       float blackTotal) const;
 
+    /// The end of the segment in which channelRadius() lies: no larger than a segment above it, and
+    /// quicker.
+    [[nodiscard]] float radiusBound(int channel, float fraction, float blackTotal) const;
+
     /// Largest of the channels' radii in units of h; 0 when all are black.
     [[nodiscard]] float radius(const float* logProfile, float fraction, float blackTotal) const;
 
@@ -46,6 +62,7 @@ public:
     }
 
 private:
+    void addUp();
     /// The segment in which the energy up to it exceeds `remaining`, which becomes what is left
     /// for that segment.
     [[nodiscard]] int segmentHolding(int channel, float& remaining) const;
@@ -54,7 +71,8 @@ private:
     int mSegments;
     std::array<float, (kMaxSegments + 1) * 3> mIndex;
     std::array<float, (kMaxSegments + 1) * 3> mValue;
-    std::array<float, (kMaxSegments + 1) * 3> mEnergy;
+    static constexpr int kLanes = 24; ///< energies that are summed at a time: a multiple of three
+    std::array<float, (kMaxSegments + kLanes) * 3> mEnergy{}; ///< zero beyond the last segment
     std::array<float, 3> mTotal{};
 };
 

@@ -66,6 +66,7 @@ private:
                     std::vector<std::string> suffixes, const std::string& name,
                     std::function<void(const std::filesystem::path&)> done);
     void offerRecovery();
+    bool saveMaterial(const std::filesystem::path& file);
     void worldOpened();
     void watchFiles();
     void setActions();
@@ -203,7 +204,7 @@ void Editor::setActions() {
                                      : mSession.activeDocument()->material().name + ".subedit.exr";
         chooseFile(FileDialog::Kind::Save, "Save the material", {".subedit.exr"}, name,
                    [this](const auto& file) {
-                       if (mSession.perform({"file.save", {{"file", file.string()}}})) {
+                       if (saveMaterial(file)) {
                            addRecent(mPreferences.recentMaterials, file.string());
                            savePreferences();
                        }
@@ -211,7 +212,7 @@ void Editor::setActions() {
     };
     mActions.save = [this] {
         if (mSession.materialFile) {
-            mSession.perform({"file.save", {{"file", mSession.materialFile->string()}}});
+            saveMaterial(*mSession.materialFile);
         } else {
             mActions.saveAs();
         }
@@ -276,6 +277,13 @@ void Editor::savePreferences() {
     }
 }
 
+bool Editor::saveMaterial(const std::filesystem::path& file) {
+    if (const auto problem = mJournal.keep(file)) {
+        mSession.notify(Notice::Kind::Warning, *problem);
+    }
+    return mSession.perform({"file.save", {{"file", file.string()}}});
+}
+
 void Editor::offerRecovery() {
     const std::optional<Recovery> found = isScripted() ? std::nullopt : findRecovery(stateFolder());
     if (!found) {
@@ -291,11 +299,7 @@ void Editor::offerRecovery() {
               mRecovery = recovery;
               mOpen.start(recovery.opened);
           }},
-         {"Discard",
-          [file = found->file] {
-              std::error_code ignored;
-              std::filesystem::remove(file, ignored);
-          }},
+         {"Discard", [recovery = *found] { discard(recovery); }},
          {"Later", {}}});
 }
 
@@ -445,6 +449,7 @@ void Editor::worldOpened() {
         mSession.notify(Notice::Kind::Info,
                         fmt::format("Recovered {} of {} steps; they are not saved yet", done,
                                     recovery.commands.size()));
+        mSession.materialFile.reset(); // nothing takes the file's name unless asked to
         std::error_code ignored;
         std::filesystem::remove(recovery.file, ignored);
     }

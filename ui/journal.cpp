@@ -15,7 +15,14 @@ namespace celadon::ui {
 namespace {
 
 constexpr const char* kHeader = "journal";
+constexpr const char* kKept = "journal.kept"; ///< a file that was saved over, and where it is now
 constexpr const char* kSuffix = ".journal";
+constexpr const char* kKeptSuffix = ".kept.exr";
+
+void removeFile(const std::filesystem::path& file) {
+    std::error_code ignored;
+    std::filesystem::remove(file, ignored);
+}
 
 /// "1234.journal" of a process that runs still.
 bool belongsToLiving(const std::filesystem::path& file) {
@@ -42,6 +49,13 @@ Journal::~Journal() = default;
 void Journal::begin(const OpenRequest& opened) {
     finish();
     mOpened = opened;
+    // A later process may run in another folder. Names of builtins and shipped materials stay.
+    for (std::string* name : {&mOpened.model, &mOpened.material}) {
+        std::error_code failed;
+        if (std::filesystem::exists(*name, failed)) {
+            *name = std::filesystem::absolute(*name, failed).string();
+        }
+    }
 }
 
 std::optional<std::string> Journal::add(const Command& command) {
@@ -53,11 +67,12 @@ std::optional<std::string> Journal::add(const Command& command) {
         std::filesystem::create_directories(mFolder, failed);
         mFile = mFolder / fmt::format("{}{}", ::getpid(), kSuffix);
         mStream.open(mFile, std::ios::trunc);
-        mStream << formatCommand(
-                       {kHeader, {{"model", mOpened.model}, {"material", mOpened.material}}})
-                << '\n';
+        write({kHeader, {{"model", mOpened.model}, {"material", mOpened.material}}});
+        for (const auto& [file, kept] : mOpened.readInstead) {
+            write({kKept, {{"file", file.string()}, {"as", kept.string()}}});
+        }
     }
-    mStream << formatCommand(command) << '\n' << std::flush;
+    write(command);
     if (!mStream) {
         mHasFailed = true;
         return fmt::format("'{}' cannot be written: a crash would lose what is not saved",
@@ -66,13 +81,53 @@ std::optional<std::string> Journal::add(const Command& command) {
     return std::nullopt;
 }
 
+void Journal::write(const Command& command) {
+    mStream << formatCommand(command) << '\n' << std::flush;
+}
+
+std::optional<std::string> Journal::keep(const std::filesystem::path& file) {
+    std::error_code failed;
+    const std::filesystem::path path = std::filesystem::weakly_canonical(file, failed);
+    if (!mStream.is_open() || mHasFailed || !std::filesystem::exists(path, failed) ||
+        mOpened.readInstead.contains(path)) {
+        return std::nullopt;
+    }
+    std::filesystem::path kept;
+    for (int number = 1; kept.empty() || std::filesystem::exists(kept, failed); ++number) {
+        kept = mFolder / fmt::format("{}-{}{}", ::getpid(), number, kKeptSuffix);
+    }
+    // Saving puts another file in this one's place: a second name for it costs nothing.
+    std::filesystem::create_hard_link(path, kept, failed);
+    if (failed) {
+        std::filesystem::copy_file(path, kept, failed);
+    }
+    if (failed) {
+        return fmt::format("'{}' cannot be kept in '{}' ({}): after a crash, what was done before "
+                           "this save would be done twice",
+                           path.string(), kept.string(), failed.message());
+    }
+    mOpened.readInstead[path] = kept;
+    write({kKept, {{"file", path.string()}, {"as", kept.string()}}});
+    return std::nullopt;
+}
+
 void Journal::finish() {
     mStream = {};
     mHasFailed = false;
     if (!mFile.empty()) {
-        std::error_code ignored;
-        std::filesystem::remove(mFile, ignored);
+        removeFile(mFile);
         mFile.clear();
+    }
+    for (const auto& [file, kept] : mOpened.readInstead) {
+        removeFile(kept);
+    }
+    mOpened = {};
+}
+
+void discard(const Recovery& recovery) {
+    removeFile(recovery.file);
+    for (const auto& [file, kept] : recovery.opened.readInstead) {
+        removeFile(kept);
     }
 }
 
@@ -94,11 +149,18 @@ std::optional<Recovery> findRecovery(const std::filesystem::path& folder) {
             const Command header = commands.front();
             const Arguments arguments(header);
             commands.erase(commands.begin());
+            OpenRequest opened{arguments.text("model"), arguments.text("material"), {}};
+            std::erase_if(commands, [&opened](const Command& command) {
+                if (command.name != kKept) {
+                    return false;
+                }
+                const Arguments kept(command);
+                opened.readInstead[kept.text("file")] = kept.text("as");
+                return true;
+            });
             const auto time = entry.last_write_time(failed);
             if (!commands.empty() && (!latest || time > latestTime)) {
-                latest = Recovery{file,
-                                  {arguments.text("model"), arguments.text("material")},
-                                  std::move(commands)};
+                latest = Recovery{file, std::move(opened), std::move(commands)};
                 latestTime = time;
             }
         } catch (const Error&) {

@@ -12,6 +12,9 @@
 /// What was done to materials since they were opened, on disk as it happens: after a crash a replay
 /// brings it back, but for a stroke that was under way. One file a session, gone when the session
 /// ends well.
+///
+/// A replay starts from the files as they were opened. One that the session saves over is kept
+/// beside the journal, so that steps, and undoing them, go on meaning the same after a save.
 namespace celadon::ui {
 
 class Journal {
@@ -27,14 +30,19 @@ public:
     /// Keeps it if it changes a material. Failures to write are said once.
     /// @return what went wrong, the first time
     [[nodiscard]] std::optional<std::string> add(const Command& command);
+    /// To be called before a file is saved over: keeps it if the session has changed anything since
+    /// it was opened. @return what went wrong
+    [[nodiscard]] std::optional<std::string> keep(const std::filesystem::path& file);
     /// Nothing is left to recover.
     void finish();
 
 private:
+    void write(const Command& command);
+
     std::filesystem::path mFolder;
     std::filesystem::path mFile;
     std::ofstream mStream;
-    OpenRequest mOpened;
+    OpenRequest mOpened; ///< with all that was kept
     bool mHasFailed = false;
 };
 
@@ -47,6 +55,8 @@ struct Recovery {
 
 /// The latest journal of a process that is no more; broken ones are passed over.
 [[nodiscard]] std::optional<Recovery> findRecovery(const std::filesystem::path& folder);
+/// Removes a journal and what was kept beside it.
+void discard(const Recovery& recovery);
 /// Whether a command is kept in a journal.
 [[nodiscard]] bool changesMaterial(const Command& command);
 

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -25,6 +26,9 @@ namespace celadon::ui {
 struct OpenRequest {
     std::string model;
     std::string material;
+    /// Files that are read in place of others: materials as they were before a session that did not
+    /// end well saved over them (journal.h).
+    std::map<std::filesystem::path, std::filesystem::path> readInstead{};
 };
 
 /// What the editor cannot do by itself, given by the program.

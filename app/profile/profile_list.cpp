@@ -25,16 +25,16 @@ nlohmann::json toJson(const glm::dvec3& v) {
 }
 
 void printText(const std::vector<MediumPreset>& presets) {
-    fmt::print("{:12} {:21} {:24} {:5} {:17} {}\n", "name", "sigma_s' [1/mm]", "sigma_a [1/mm]",
-               "eta", "albedo", "what");
+    fmt::print("{:22} {:25} {:27} {:5} {:17} {:22} {}\n", "name", "sigma_s' [1/mm]",
+               "sigma_a [1/mm]", "eta", "albedo", "source", "what");
     for (const MediumPreset& preset : presets) {
         const Medium& m = preset.medium;
         const glm::dvec3 albedo = halfSpaceTotal(m);
-        fmt::print("{:12} {:21} {:24} {:<5} {:17} {}\n", preset.name,
+        fmt::print("{:22} {:25} {:27} {:<5} {:17} {:22} {}\n", preset.name,
                    fmt::format("{} {} {}", m.reducedScattering.x, m.reducedScattering.y,
                                m.reducedScattering.z),
                    fmt::format("{} {} {}", m.absorption.x, m.absorption.y, m.absorption.z), m.eta,
-                   fmt::format("{:.3f} {:.3f} {:.3f}", albedo.x, albedo.y, albedo.z),
+                   fmt::format("{:.3f} {:.3f} {:.3f}", albedo.x, albedo.y, albedo.z), preset.source,
                    preset.description);
     }
 }
@@ -48,6 +48,7 @@ void printJson(const std::vector<MediumPreset>& presets) {
                         {"reducedScattering", toJson(preset.medium.reducedScattering)},
                         {"absorption", toJson(preset.medium.absorption)},
                         {"eta", preset.medium.eta},
+                        {"g", toJson(preset.measuredAnisotropy)},
                         {"albedo", toJson(halfSpaceTotal(preset.medium))}});
     }
     fmt::print("{}\n", list.dump(2));

@@ -32,11 +32,13 @@ struct MakeOptions {
     std::string output;
 };
 
-/// The model's own values; the row at r = 0 is left out where one is infinite.
+/// The model's own values, denser towards the center, where they vary most; the row at r = 0 is left
+/// out where one is infinite.
 std::string profileCsv(const RadialCurves& curves, double maxRadiusMm) {
     std::string csv = "r_mm,R,G,B\n";
     for (int i = 0; i <= kCsvIntervals; ++i) {
-        const double r = maxRadiusMm * i / kCsvIntervals;
+        const double t = static_cast<double>(i) / kCsvIntervals;
+        const double r = maxRadiusMm * t * t;
         const double red = curves[0].reflectance(r);
         const double green = curves[1].reflectance(r);
         const double blue = curves[2].reflectance(r);

@@ -22,9 +22,12 @@ namespace {
 
 constexpr int kMostWalks = 2'000'000'000;
 
-RadialCurves normalizedDiffusion(const Medium& medium, DiffusionFit fit) {
+RadialCurves normalizedDiffusion(const Medium& medium, std::optional<DiffusionFit> fit) {
+    if (!fit) {
+        return normalizedDiffusionProfile(medium);
+    }
     glm::dvec3 length = 1.0 / medium.reducedExtinction();
-    if (fit == DiffusionFit::Dmfp) {
+    if (*fit == DiffusionFit::Dmfp) {
         for (int channel = 0; channel < 3; ++channel) {
             if (medium.absorption[channel] <= 0.0) {
                 throw UsageError("--fit dmfp",
@@ -37,7 +40,7 @@ RadialCurves normalizedDiffusion(const Medium& medium, DiffusionFit fit) {
                                               medium.reducedExtinction()[channel]);
         }
     }
-    return normalizedDiffusionProfile(halfSpaceTotal(medium), length, fit);
+    return normalizedDiffusionProfile(halfSpaceTotal(medium), length, *fit);
 }
 
 RandomWalkResult walkWithProgress(const Medium& medium, RandomWalkSettings settings) {
@@ -72,8 +75,9 @@ void addModelOptions(CLI::App& app, ModelOptions& o) {
               takeChoice(o.model, kProfileModels));
     addOption(app, "--fit",
               {group, "searchlight|diffuse|dmfp",
-               "Of normalized diffusion: what --mean-free-path is with dmfp is 1/sigma_tr; default "
-               "searchlight"},
+               "Of normalized diffusion: its published scales; with dmfp, --mean-free-path is "
+               "1/sigma_tr. Default: searchlight for --albedo; for coefficients, the range that "
+               "photon-beam has, which the scales fall short of for --eta above 1"},
               [&o](const Argument& argument) {
                   o.fit = static_cast<DiffusionFit>(parseChoice(argument, kDiffusionFits));
               });
@@ -105,7 +109,7 @@ MadeProfile makeProfile(const ModelOptions& options, const Medium& medium) {
         made.curves = photonBeamProfile(medium);
         break;
     case ProfileModel::NormalizedDiffusion:
-        made.curves = normalizedDiffusion(medium, options.fit.value_or(DiffusionFit::Searchlight));
+        made.curves = normalizedDiffusion(medium, options.fit);
         break;
     case ProfileModel::MonteCarlo:
         made.walk = walkWithProgress(medium, options.walk);

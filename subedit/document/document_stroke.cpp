@@ -19,6 +19,14 @@ Document::OpenStroke::OpenStroke(Document& document, StrokeCommand strokeCommand
       dabs(document.surface(), command.brush, command.mirror),
       tiles(static_cast<std::size_t>(document.mSelection.tileCount())) {
     entry.mask = WeightMask(document.material().width, document.material().height);
+    forget();
+}
+
+void Document::OpenStroke::forget() {
+    for (auto& tile : tiles) {
+        tile.reset();
+    }
+    owner.mSetAside.reset(layoutOf(owner.material()).values());
     prepare();
 }
 
@@ -34,28 +42,40 @@ const float* Document::OpenStroke::profile(Surface::Texel texel) const {
     const std::size_t values = layoutOf(owner.material()).values();
     const Tile* tile = tiles[static_cast<std::size_t>(entry.mask.tileOf(x, y))].get();
     const std::size_t cell = WeightMask::cell(x, y);
-    return tile != nullptr && tile->saved[cell]
-               ? tile->values.get() + cell * values
+    return tile != nullptr && tile->before[cell] != nullptr
+               ? tile->before[cell]
                : owner.material().logProfile.data() + texel * values;
 }
 
-void Document::OpenStroke::save(std::size_t texel) {
+void Document::OpenStroke::save(std::span<const std::size_t> texels) {
     const auto width = static_cast<std::size_t>(owner.material().width);
-    const int x = static_cast<int>(texel % width);
-    const int y = static_cast<int>(texel / width);
+    struct Copy {
+        std::size_t texel;
+        float* to;
+    };
+    std::vector<Copy> copies;
+    for (const std::size_t texel : texels) {
+        const int x = static_cast<int>(texel % width);
+        const int y = static_cast<int>(texel / width);
+        const int index = entry.mask.tileOf(x, y);
+        owner.markTexel(index, x, y);
+        std::unique_ptr<Tile>& tile = tiles[static_cast<std::size_t>(index)];
+        if (tile == nullptr) {
+            tile = std::make_unique<Tile>();
+        }
+        float*& before = tile->before[WeightMask::cell(x, y)];
+        if (before == nullptr) {
+            before = owner.mSetAside.take();
+            copies.push_back({texel, before});
+        }
+    }
     const std::size_t values = layoutOf(owner.material()).values();
-    const int index = entry.mask.tileOf(x, y);
-    owner.markTexel(index, x, y);
-    std::unique_ptr<Tile>& tile = tiles[static_cast<std::size_t>(index)];
-    if (tile == nullptr) {
-        tile = std::make_unique<Tile>();
-        tile->values = std::make_unique_for_overwrite<float[]>(tile->saved.size() * values);
-    }
-    const std::size_t cell = WeightMask::cell(x, y);
-    if (!tile->saved[cell]) {
-        tile->saved[cell] = true;
-        std::copy_n(owner.texelData(texel), values, tile->values.get() + cell * values);
-    }
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, copies.size(), 512),
+                      [&](const tbb::blocked_range<std::size_t>& range) {
+                          for (std::size_t i = range.begin(); i != range.end(); ++i) {
+                              std::copy_n(owner.texelData(copies[i].texel), values, copies[i].to);
+                          }
+                      });
 }
 
 std::uint8_t& Document::OpenStroke::outcome(std::size_t texel) {
@@ -97,10 +117,7 @@ void Document::addStrokePoint(const StrokePoint& point) {
     while (const auto grown = grownLayout(layoutOf(*mMaterial), neededMm, mLargestRadiusMm)) {
         restoreStroke();
         grow(*grown, mStroke->entry);
-        for (auto& tile : mStroke->tiles) {
-            tile.reset();
-        }
-        mStroke->prepare();
+        mStroke->forget();
         texels.clear();
         mStroke->entry.mask.forEachNonZero(
             [&](std::size_t texel, auto) { texels.push_back(texel); });
@@ -110,9 +127,7 @@ void Document::addStrokePoint(const StrokePoint& point) {
 
 /// @return the r_s that the texels need
 float Document::evaluateStroke(std::span<const std::size_t> texels) {
-    for (const std::size_t texel : texels) {
-        mStroke->save(texel);
-    }
+    mStroke->save(texels);
     std::mutex mutex;
     float neededMm = 0.0f;
     tbb::enumerable_thread_specific<PreparedOperator::Worker> workers(

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace celadon::subedit {
@@ -16,19 +17,20 @@ struct Document::OpenStroke : ProfileSource {
     /// The operator for the map's layout as it is now.
     void prepare();
     [[nodiscard]] const float* profile(Surface::Texel texel) const override;
-    /// Saves a texel that it has not touched yet.
-    void save(std::size_t texel);
+    /// Sets aside texels that it has not touched yet.
+    void save(std::span<const std::size_t> texels);
+    /// Forgets what was set aside: the map is as it was.
+    void forget();
     [[nodiscard]] std::uint8_t& outcome(std::size_t texel);
 
     Document& owner;
     StrokeCommand command;
     StrokeMask dabs;
     Entry entry; ///< its mask and growth so far
-    /// What the stroke has touched of a tile, as it was before.
+    /// What the stroke has touched of a tile.
     struct Tile {
-        TileBits saved;
-        /// Room for all its texels, so that none ever moves; memory is taken only by those saved.
-        std::unique_ptr<float[]> values;
+        /// As it was before; null: not touched.
+        std::array<float*, WeightMask::kTileSize * WeightMask::kTileSize> before{};
         std::array<std::uint8_t, WeightMask::kTileSize * WeightMask::kTileSize>
             outcome; ///< 1 energy clamped, 2 range clamped
     };

@@ -12,6 +12,8 @@ namespace celadon::subedit {
 
 namespace {
 
+using Lanes = float[4]; ///< the channels, and one that fills a vector
+
 /// ln of the energy of the first segment in units of h^2: e^l0 M_1(l1 - l0) of log_linear.h.
 float logFirstEnergy(float l0, float l1) {
     const float z = l1 - l0;
@@ -26,15 +28,24 @@ float logFirstEnergy(float l0, float l1) {
     return l0 + fastLog(moment);
 }
 
-/// The l0 of a given logFirstEnergy(), which grows with it.
-float solveFirstKnot(float l0, float l1, float logEnergy) {
-    float value = logFirstEnergy(l0, l1) - logEnergy;
-    float slope = 0.7f;
-    for (int i = 0; i < 8 && std::abs(value) > 1e-6f; ++i) {
+/// The l0 of a given logFirstEnergy(), which grows with it; to 1e-4, where scaling the whole
+/// profile by the rest changes nothing that can be seen.
+/// @param change of logFirstEnergy() from what it is at the l0 given
+/// @param moment M_1 there
+float solveFirstKnot(float l0, float l1, float change, float moment) {
+    const float goal = change + l0 + fastLog(moment);
+    // d ln E / d l0 = 1 - M_2 / M_1, M_2 the moment of s^2.
+    const float z = l1 - l0;
+    const float second = std::abs(z) < 0.5f
+                             ? 1.0f / 3 + z * (1.0f / 4 + z * (1.0f / 10 + z * (1.0f / 36)))
+                             : (fastExp(z) - 2.0f * moment) / z;
+    float slope = std::clamp(1.0f - second / moment, 0.2f, 1.0f);
+    float value = -change;
+    for (int i = 0; i < 8 && std::abs(value) > 1e-4f; ++i) {
         const float step = std::clamp(-value / slope, -4.0f, 4.0f);
-        const float next = logFirstEnergy(l0 + step, l1) - logEnergy;
-        slope = std::clamp((next - value) / step, 0.2f, 1.0f); // secant; bounds of the true slope
         l0 += step;
+        const float next = logFirstEnergy(l0, l1) - goal;
+        slope = std::clamp((next - value) / step, 0.2f, 1.0f); // secant; bounds of the true slope
         value = next;
     }
     return l0;
@@ -48,16 +59,24 @@ constexpr float kDefaultLengths = 8.0f;
 void resampleChannel(const float* in, int inSegments, float inSpacingMm, float scale, float* out,
                      int outSegments, float outSpacingMm) {
     const float step = outSpacingMm / (scale * inSpacingMm);
-    const float shift = -2.0f * std::log(scale);
-    for (int k = 0; k <= outSegments; ++k) {
+    const float shift = -2.0f * fastLog(scale);
+    int k = 0;
+    for (; k <= outSegments; ++k) {
         const float position = static_cast<float>(k) * step;
-        // Beyond the last knot along its last segment, were it to go on; never upwards.
-        const int i = std::min(static_cast<int>(position), inSegments - 1);
-        const float slope = in[(i + 1) * 3] - in[i * 3];
-        const float t = position - static_cast<float>(i);
-        const float value = t <= 1.0f ? in[i * 3] + slope * t
-                                      : in[(i + 1) * 3] + std::min(slope, 0.0f) * (t - 1.0f);
+        const auto i = static_cast<int>(position);
+        if (i >= inSegments) {
+            break;
+        }
+        const float value =
+            in[i * 3] + (in[i * 3 + 3] - in[i * 3]) * (position - static_cast<float>(i));
         out[k * 3] = std::max(value + shift, kLogProfileFloor);
+    }
+    // Beyond the last knot along its last segment, were it to go on; never upwards.
+    const float end = in[inSegments * 3];
+    const float slope = std::min(end - in[inSegments * 3 - 3], 0.0f);
+    for (; k <= outSegments; ++k) {
+        const float beyond = static_cast<float>(k) * step - static_cast<float>(inSegments);
+        out[k * 3] = std::max(end + slope * beyond + shift, kLogProfileFloor);
     }
 }
 
@@ -74,12 +93,7 @@ std::vector<float> resampleProfile(const StoredProfile& profile, const ProfileLa
                         result.values() + c, layout.segments, layout.spacingMm());
     }
     result.measure();
-    for (int c = 0; c < 3; ++c) {
-        if (!result.isBlack(c)) {
-            result.fitFirstKnot(c, source.albedo()[c]);
-        }
-    }
-    result.measure();
+    result.fitFirstKnots(source.albedo());
     for (int c = 0; c < 3; ++c) {
         if (!result.isBlack(c)) {
             result.setAlbedo(c, source.albedo()[c]);
@@ -108,9 +122,20 @@ void ProfileEditor::load(const float* logProfile) {
 
 void ProfileEditor::measure() {
     mEnergy.compute(mValues.data());
+    takeAlbedo();
+}
+
+void ProfileEditor::takeAlbedo() {
     for (int c = 0; c < 3; ++c) {
         mAlbedo[c] = mEnergy.albedo(c, mLayout.spacingMm());
     }
+}
+
+float ProfileEditor::radiusBoundMm(int channel, float fraction) const {
+    const float h = mLayout.spacingMm();
+    return isBlack(channel)
+               ? 0.0f
+               : h * mEnergy.radiusBound(channel, fraction, TexelEnergy::blackTotal(h));
 }
 
 float ProfileEditor::radiusMm(int channel, float fraction) const {
@@ -146,7 +171,7 @@ void ProfileEditor::setAlbedo(int channel, float albedo) {
         mEnergy.compute(mValues.data());
         mAlbedo[channel] = mEnergy.albedo(channel, mLayout.spacingMm());
     }
-    const float shift = std::log(albedo / mAlbedo[channel]);
+    const float shift = fastLog(albedo / mAlbedo[channel]);
     for (int k = 0; k < knots; ++k) {
         values[k * 3] = std::max(values[k * 3] + shift, kLogProfileFloor);
     }
@@ -172,12 +197,7 @@ void ProfileEditor::scaleRange(const glm::vec3& scale) {
         return;
     }
     measure();
-    for (int c = 0; c < 3; ++c) {
-        if (scale[c] != 1.0f && !isBlack(c)) {
-            fitFirstKnot(c, albedo[c]);
-        }
-    }
-    measure();
+    fitFirstKnots(albedo);
     for (int c = 0; c < 3; ++c) {
         if (mAlbedo[c] != albedo[c] && !isBlack(c)) {
             setAlbedo(c, albedo[c]);
@@ -185,16 +205,27 @@ void ProfileEditor::scaleRange(const glm::vec3& scale) {
     }
 }
 
-void ProfileEditor::fitFirstKnot(int channel, float albedo) {
-    float& l0 = mValues[static_cast<std::size_t>(channel)];
-    const float l1 = mValues[static_cast<std::size_t>(3 + channel)];
+void ProfileEditor::fitFirstKnots(const glm::vec3& albedo) {
     const float h = mLayout.spacingMm();
-    const float first = fastExp(logFirstEnergy(l0, l1));
-    const float rest = mEnergy.total(channel) - first;
-    const float wanted = albedo / (2.0f * std::numbers::pi_v<float> * h * h) - rest;
-    // A first segment of a tenth or ten times the energy is no longer the same profile.
-    if (wanted > 0.1f * first && wanted < 10.0f * first) {
-        l0 = solveFirstKnot(l0, l1, fastLog(wanted));
+    bool isChanged = false;
+    for (int c = 0; c < 3; ++c) {
+        if (isBlack(c) || mAlbedo[c] == albedo[c]) {
+            continue;
+        }
+        float& l0 = mValues[static_cast<std::size_t>(c)];
+        const float l1 = mValues[static_cast<std::size_t>(3 + c)];
+        const float first = mEnergy.first(c);
+        const float rest = mEnergy.total(c) - first;
+        const float wanted = albedo[c] / (2.0f * std::numbers::pi_v<float> * h * h) - rest;
+        // A first segment of a tenth or ten times the energy is no longer the same profile.
+        if (wanted > 0.1f * first && wanted < 10.0f * first) {
+            l0 = solveFirstKnot(l0, l1, fastLog(wanted / first), first / mEnergy.value(c));
+            isChanged = true;
+        }
+    }
+    if (isChanged) {
+        mEnergy.computeFirst(mValues.data());
+        takeAlbedo();
     }
 }
 

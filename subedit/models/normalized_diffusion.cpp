@@ -1,5 +1,8 @@
 #include "subedit/models/normalized_diffusion.h"
 
+#include "subedit/models/half_space.h"
+#include "subedit/models/photon_beam.h"
+
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -41,6 +44,17 @@ RadialCurves normalizedDiffusionProfile(const glm::dvec3& albedo, const glm::dve
         const double scale = normalizedDiffusionScale(albedo[channel], fit);
         curves[static_cast<std::size_t>(channel)] =
             normalizedDiffusionCurve(albedo[channel], lengthMm[channel] / scale);
+    }
+    return curves;
+}
+
+RadialCurves normalizedDiffusionProfile(const Medium& medium) {
+    const double unitRadius = normalizedDiffusionRadius();
+    const glm::dvec3 albedo = halfSpaceTotal(medium);
+    RadialCurves curves = photonBeamProfile(medium);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        curves[channel] = normalizedDiffusionCurve(
+            albedo[static_cast<int>(channel)], radiusHolding(curves[channel], 0.95) / unitRadius);
     }
     return curves;
 }

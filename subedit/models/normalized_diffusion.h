@@ -1,5 +1,6 @@
 #pragma once
 
+#include "subedit/medium.h"
 #include "subedit/radial_curve.h"
 
 #include <glm/vec3.hpp>
@@ -9,7 +10,7 @@
 /// by construction, and a scale fitted to Monte Carlo. Infinite at r = 0.
 namespace celadon::subedit {
 
-/// Which Monte Carlo experiment the scale s(A) was fitted to.
+/// Which Monte Carlo experiment the published scale s(A) was fitted to.
 enum class DiffusionFit {
     Searchlight, ///< perpendicular pencil, length = mean free path 1 / sigma_t'
     Diffuse,     ///< ideal diffuse transmission, length = mean free path 1 / sigma_t'
@@ -25,6 +26,13 @@ enum class DiffusionFit {
 [[nodiscard]] RadialCurves normalizedDiffusionProfile(const glm::dvec3& albedo,
                                                       const glm::dvec3& lengthMm,
                                                       DiffusionFit fit = DiffusionFit::Searchlight);
+
+/// The curve of a medium given by its coefficients: A is what the half space returns exactly
+/// (half_space.h), and d is such that R_P is that of photon beam diffusion, which has it to 5 %.
+/// The published s(A) know index-matched media only, and fall short of the range from A = 0.75 on:
+/// by random walks R_P is 0.75 of what it should be at alpha' = 0.995, 0.6 at alpha' = 0.95 and eta
+/// = 1.4.
+[[nodiscard]] RadialCurves normalizedDiffusionProfile(const Medium& medium);
 
 /// One channel by its shape parameter d in mm directly.
 [[nodiscard]] RadialCurve normalizedDiffusionCurve(double albedo, double shapeMm);

@@ -14,17 +14,6 @@ namespace {
 
 using test::integrate;
 
-TEST(Dipole, TotalsAgreeWithTheTableOfMeasuredMedia) {
-    for (const MediumPreset& preset : mediumPresets()) {
-        const glm::dvec3 total = dipoleTotal(preset.medium);
-        for (int channel = 0; channel < 3; ++channel) {
-            // Two decimals are given.
-            EXPECT_NEAR(total[channel], preset.dipoleTotal[channel], 0.0051)
-                << preset.name << ' ' << channelName(channel);
-        }
-    }
-}
-
 TEST(Dipole, IntegratesToItsClosedForms) {
     const Medium& marble = findMediumPreset("marble");
     const RadialCurves curves = dipoleProfile(marble);

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <string>
+#include <unistd.h>
 
 namespace celadon::ui {
 namespace {
@@ -61,6 +63,55 @@ TEST(Journal, LeavesNothingBehindWhenFinished) {
     EXPECT_FALSE(std::filesystem::is_empty(folder.path()));
     journal.finish();
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Journal, KeepsAFileThatIsSavedOver) {
+    const test::TemporaryFolder folder;
+    const std::filesystem::path state = folder / "state";
+    const std::filesystem::path file = folder / "wax.subedit.exr";
+    const auto write = [&](const std::string& text) {
+        // As every writer here does: another file takes the name.
+        std::ofstream(folder / "pending") << text;
+        std::filesystem::rename(folder / "pending", file);
+    };
+    const auto read = [](const std::filesystem::path& path) {
+        std::string text;
+        std::getline(std::ifstream(path), text);
+        return text;
+    };
+    write("as opened");
+    {
+        Journal journal(state);
+        journal.begin({"m", file.string()});
+        EXPECT_FALSE(journal.keep(file)); // nothing has been done: nothing to keep
+        EXPECT_TRUE(!std::filesystem::exists(state) || std::filesystem::is_empty(state));
+        EXPECT_FALSE(journal.add(kEdit));
+        EXPECT_FALSE(journal.keep(file));
+        write("saved");
+        EXPECT_FALSE(journal.add({"edit.undo"}));
+        EXPECT_FALSE(journal.keep(file)); // that it is ours now does not matter
+        write("saved again");
+        EXPECT_FALSE(journal.keep(folder / "new.subedit.exr"));
+    }
+    std::filesystem::rename(state / std::to_string(::getpid()).append(".journal"),
+                            state / "99999999.journal");
+    const auto found = findRecovery(state);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->commands.size(), 2u);
+    ASSERT_EQ(found->opened.readInstead.size(), 1u);
+    EXPECT_EQ(found->opened.readInstead.begin()->first, std::filesystem::canonical(file));
+    EXPECT_EQ(read(found->opened.readInstead.begin()->second), "as opened");
+    EXPECT_EQ(read(file), "saved again");
+
+    // The session that recovers goes on with what was kept, and cleans up when it ends.
+    Journal next(state);
+    next.begin(found->opened);
+    EXPECT_FALSE(next.add(kEdit));
+    EXPECT_FALSE(next.keep(file));
+    next.finish();
+    EXPECT_FALSE(std::filesystem::exists(found->opened.readInstead.begin()->second));
+    discard(*found);
+    EXPECT_TRUE(std::filesystem::is_empty(state));
 }
 
 TEST(Journal, RubbishIsNoRecovery) {
