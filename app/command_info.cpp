@@ -39,10 +39,22 @@ void checkInfoOptions(const InfoOptions& options) {
     }
     checkMeshOutput("--write-atlas", options.writeAtlas, options.system);
     checkMeshOutput("--write-mesh", options.writeMesh, options.system);
+    if (options.writeGltf) {
+        if (options.system || options.writeMesh || options.writeAtlas) {
+            throw UsageError("--write-gltf", "is an output of its own",
+                             "leave out --write-mesh, --write-atlas and --system");
+        }
+        if (options.motion.deformations.empty() || options.motion.animation ||
+            options.motion.timeSeconds) {
+            throw UsageError("--write-gltf", "stores deformers, and no pose",
+                             "give them by --deform, and leave out --animation and --time");
+        }
+        checkWritable(*options.writeGltf);
+    }
     const MotionRequest& motion = options.motion;
     if ((motion.animation || motion.timeSeconds || !motion.deformations.empty() ||
          options.scale.millimetersPerUnit || options.scale.diameterMm) &&
-        !options.writeMesh) {
+        !options.writeMesh && !options.writeGltf) {
         throw UsageError("info", "a pose or a size is only for the mesh that is written",
                          "add --write-mesh OUT.obj");
     }
@@ -69,6 +81,10 @@ Command addInfoCommand(CLI::App& root) {
          "Writes the model as posed, in model units, with the texture coordinates and normals "
          "used"},
         [options](const Argument& a) { options->writeMesh = parsePath(a); });
+    addOption(*command, "--write-gltf",
+              {pose, "OUT.glb|gltf",
+               "Writes the .glb or .gltf as it is, with the deformers of --deform stored in it"},
+              [options](const Argument& a) { options->writeGltf = parsePath(a); });
     addOption(*command, "--animation",
               {pose, "NAME|N", "Which of the glTF's animations, by name or number from 0"},
               takeText(options->motion.animation));
@@ -76,7 +92,7 @@ Command addInfoCommand(CLI::App& root) {
               takeNumber(options->motion.timeSeconds, kNotNegative));
     addRepeatable(
         *command, "--deform",
-        {pose, "DEFORM", "As for render, after the animation; repeatable, in order"},
+        {pose, "DEFORM", "As for render, after the animation; repeatable, in order; default: what it stores"},
         [options](const Argument& a) { options->motion.deformations.push_back(parseText(a)); });
     addOption(*command, "--scale", {pose, "MM", "Millimeters per model unit, as for render"},
               takeNumber(options->scale.millimetersPerUnit, kPositive));

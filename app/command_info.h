@@ -14,7 +14,8 @@ struct InfoOptions {
     bool system = false;
     std::optional<std::filesystem::path> writeAtlas; ///< the model with its coordinates, as OBJ
     std::optional<std::filesystem::path> writeMesh;  ///< the posed model, as OBJ
-    MotionRequest motion;                            ///< of --write-mesh
+    std::optional<std::filesystem::path> writeGltf;  ///< the glTF, with the deformers in it
+    MotionRequest motion;                            ///< of --write-mesh and --write-gltf
     WorldScale scale;
 };
 

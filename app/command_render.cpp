@@ -191,11 +191,15 @@ public:
           mRestBounds{mWorld.scatteringSphere, mWorld.sceneSphere},
           mMotion(
               makeMotion(mWorld, {options.animation, options.timeSeconds, options.deformations})),
-          mTimer(context) {}
+          mTimer(context) {
+        for (const std::string& warning : mMotion.warnings()) {
+            log::warning("{}", warning);
+        }
+    }
 
     [[nodiscard]] RenderedFrame make(int number) {
         const double seconds = mOptions.timeSeconds.value_or(number / mOptions.framesPerSecond);
-        const Pose pose = mMotion.at(seconds);
+        const Pose pose = inFrame(number, seconds, [&] { return mMotion.at(seconds); });
         mWorld.scatteringSphere = mRestBounds.scattering;
         mWorld.sceneSphere = mRestBounds.scene;
         if (mMotion.moves()) {
@@ -204,12 +208,8 @@ public:
         }
         const Camera camera = cameraOf(mOptions, mWorld);
         const std::vector<Light> lights = lightsOf(mOptions, mWorld, camera);
-        double deformationMs = 0.0;
-        try {
-            deformationMs = move(pose);
-        } catch (const InputError& error) {
-            throw InputError(fmt::format("frame {} at {:g} s", number, seconds), error.what());
-        }
+        const double deformationMs =
+            inFrame(number, seconds, [&] { return move(pose); });
         RenderedFrame frame = mRenderer->render(camera, lights);
         frame.stats.frame = number;
         frame.stats.milliseconds.deformation = deformationMs;
@@ -220,6 +220,14 @@ public:
             warnAboutRadius(shown, frame.stats);
         }
         return frame;
+    }
+
+    /// Of every mesh, from the next frame on.
+    void setMaterial(MaterialPointer material) {
+        mDeformation.reset();
+        mRenderer.reset();
+        mScene.reset();
+        mWorld.materials = {std::move(material)};
     }
 
     [[nodiscard]] double millimetersPerUnit() const { return mWorld.millimetersPerUnit; }
@@ -236,6 +244,16 @@ private:
     std::shared_ptr<const GpuScene> mScene;
     std::unique_ptr<FrameRenderer> mRenderer;
     std::unique_ptr<GpuDeformation> mDeformation;
+
+    /// What cannot be posed or moved is said with its frame.
+    template<typename Work>
+    static auto inFrame(int number, double seconds, const Work& work) {
+        try {
+            return work();
+        } catch (const InputError& error) {
+            throw InputError(fmt::format("frame {} at {:g} s", number, seconds), error.what());
+        }
+    }
 
     /// @return the time of it, ms
     double move(const Pose& pose) {
@@ -285,8 +303,7 @@ void render(const RenderOptions& options) {
     refuseUnbuilt(options);
     const FrameRange frames = options.frames.value_or(FrameRange{});
     const FrameSettings settings = frameSettings(options);
-    const bool worldChanges =
-        options.sequence || (options.material && hasFrameField(*options.material));
+    MaterialOverTime material(options);
 
     World first = readWorld(options, frames.first); // bad input is said before GL starts
     static_cast<void>(
@@ -297,10 +314,13 @@ void render(const RenderOptions& options) {
     auto maker = std::make_unique<FrameMaker>(options, settings, *context, std::move(first));
     Progress progress("frames", static_cast<std::size_t>(frames.count()));
     for (int number = frames.first; number <= frames.last; ++number) {
-        if (worldChanges && number > frames.first) {
+        if (options.sequence && number > frames.first) {
             maker.reset();
             maker = std::make_unique<FrameMaker>(options, settings, *context,
                                                  readWorld(options, number));
+        }
+        if (MaterialPointer now = material.at(number)) {
+            maker->setMaterial(std::move(now));
         }
         RenderedFrame frame = maker->make(number);
         stats.millimetersPerUnit = maker->millimetersPerUnit();

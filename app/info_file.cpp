@@ -2,8 +2,11 @@
 #include "app/describe_material.h"
 #include "app/log.h"
 #include "app/render_scene.h"
+#include "renderer/output/atomic_file.h"
 #include "renderer/scene/atlas.h"
 #include "renderer/scene/describe_scene.h"
+#include "renderer/scene/load_bytes.h"
+#include "renderer/scene/load_deformers.h"
 #include "renderer/scene/write_obj.h"
 #include "subedit/errors.h"
 #include "subedit/map/shipped_materials.h"
@@ -100,19 +103,29 @@ void describeModel(const InfoOptions& options) {
     writeObj(scene, *options.writeAtlas);
 }
 
-/// The pose that a render would show, back in model units.
-void writePosedMesh(const InfoOptions& options) {
+/// The model with its normals and texture coordinates as a render has them.
+World readRest(const InfoOptions& options) {
     Scene scene = readModel(options.file);
     const MaterialPointer any = readMaterialArgument(subedit::kDefaultMaterial);
     std::vector<MaterialPointer> named;
     for (const SurfaceMaterial& look : scene.materials) {
         named.push_back(look.subedit ? any : nullptr); // which one does not matter here
     }
-    const World rest = buildWorld(std::move(scene), nullptr, named, any, options.scale);
+    World rest = buildWorld(std::move(scene), nullptr, named, any, options.scale);
     for (const std::string& warning : rest.warnings) {
         log::warning("{}", warning);
     }
-    const Pose pose = makeMotion(rest, options.motion).at(options.motion.timeSeconds.value_or(0.0));
+    return rest;
+}
+
+/// The pose that a render would show, back in model units.
+void writePosedMesh(const InfoOptions& options) {
+    const World rest = readRest(options);
+    const Motion motion = makeMotion(rest, options.motion);
+    for (const std::string& warning : motion.warnings()) {
+        log::warning("{}", warning);
+    }
+    const Pose pose = motion.at(options.motion.timeSeconds.value_or(0.0));
     World world = posedWorld(rest, pose);
     std::vector<const Mesh*> meshes;
     for (WorldMesh& part : world.meshes) {
@@ -123,6 +136,28 @@ void writePosedMesh(const InfoOptions& options) {
     }
     writeObj(meshes, *options.writeMesh);
     fmt::print("mm per unit: {:.9g}\n", world.millimetersPerUnit);
+}
+
+/// The file itself with other deformers. The model is read whole first: what is no glTF, or a glTF
+/// that such deformers cannot bend, is refused.
+void writeDeformedGltf(const InfoOptions& options) {
+    const std::filesystem::path file = options.file;
+    const std::filesystem::path& output = *options.writeGltf;
+    if (file.extension() != output.extension() ||
+        (output.extension() != ".glb" && output.extension() != ".gltf")) {
+        throw UsageError("--write-gltf", "takes a .glb to a .glb, or a .gltf to a .gltf");
+    }
+    if (output.extension() == ".gltf" &&
+        std::filesystem::absolute(file).parent_path() !=
+            std::filesystem::absolute(output).parent_path()) {
+        throw UsageError("--write-gltf", "a .gltf names the files beside it",
+                         "write it into the folder of the model");
+    }
+    const World rest = readRest(options);
+    static_cast<void>(makeMotion(rest, options.motion));
+    writeFileAtomically(output, loaders::gltfWithDeformers(
+                                    file, loaders::readFile(file),
+                                    *readDeformations(options.motion.deformations)));
 }
 
 } // namespace
@@ -145,6 +180,11 @@ void describeFile(const InfoOptions& options) {
     if (options.writeMesh) {
         checkOutput("--write-mesh", *options.writeMesh);
         writePosedMesh(options);
+        return;
+    }
+    if (options.writeGltf) {
+        checkOutput("--write-gltf", *options.writeGltf);
+        writeDeformedGltf(options);
         return;
     }
     if (isMaterial) {

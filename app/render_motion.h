@@ -13,11 +13,15 @@ namespace celadon::app {
 struct MotionRequest {
     std::optional<std::string> animation; ///< name or number
     std::optional<double> timeSeconds;    ///< with no animation named, the first one is meant
-    std::vector<std::string> deformations;
+    std::vector<std::string> deformations; ///< instead of those that the model stores
 };
 
+/// What --deform says, in order: "twist:y:90", FILE.json, or "none" alone. Nothing: what the model
+/// stores. @throws UsageError, InputError
+[[nodiscard]] std::optional<DeformerStack> readDeformations(const std::vector<std::string>& texts);
+
 /// @param rest outlives the motion
-/// @throws UsageError: no such animation, deformer or axis
+/// @throws UsageError: no such animation, deformer or axis; InputError
 [[nodiscard]] Motion makeMotion(const World& rest, const MotionRequest& request);
 
 } // namespace celadon::app

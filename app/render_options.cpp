@@ -48,6 +48,13 @@ void addFiles(CLI::App& app, RenderOptions& o) {
                "A .subedit.exr file or a shipped material, for every mesh; default: what the glTF "
                "names, else a shipped one"},
               takeText(o.material));
+    addOption(app, "--material-to",
+              {group, "FILE|NAME", "Another material, into which --material fades over the frames"},
+              takeText(o.materialTo));
+    addOption(app, "--fade-frames",
+              {group, "A:B", "It is --material up to frame A and --material-to from B on; default: "
+                             "the first and the last of --frames"},
+              [&o](const Argument& a) { o.fadeFrames = parseFrames(a); });
     addFlag(app, "--aov", group,
             "Adds layers to the EXR: exitance (W/m^2), position (mm), normal, uv, radius (mm), "
             "level",
@@ -144,7 +151,10 @@ void addMotion(CLI::App& app, RenderOptions& o) {
     addRepeatable(app, "--deform",
                   {group, "DEFORM",
                    "twist:AXIS:DEG, bend:AXIS:DEG, taper:AXIS:SCALE, inflate:MM or\n"
-                   "wave:AXIS:AMPLITUDE_MM:WAVELENGTH_MM; repeatable, in order"},
+                   "wave:AXIS:AMPLITUDE_MM:WAVELENGTH_MM, all but inflate with :FROM,TO after it for "
+                   "a part of the extent\n"
+                   "FILE.json: lattices, handles, keys; repeatable, in order; default: those that "
+                   "the model stores; none: without them"},
                   [&o](const Argument& a) { o.deformations.push_back(parseText(a)); });
 }
 
@@ -212,6 +222,12 @@ void validateMotion(const RenderOptions& o) {
                 "add --frames A:B");
         static_cast<void>(FramePattern("--sequence", *o.sequence));
     }
+    if (o.materialTo) {
+        require(o.material && !hasFrameField(*o.material) && o.frames, "--material-to",
+                "fades from one material over frames", "add --material FILE|NAME and --frames A:B");
+    }
+    require(!o.fadeFrames || o.materialTo, "--fade-frames", "there is nothing to fade into",
+            "add --material-to FILE|NAME");
     require(!(o.timeSeconds && o.frames), "--time", "does not go with --frames",
             "leave one of them out");
     if (o.frames) {

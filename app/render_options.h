@@ -36,6 +36,8 @@ struct RenderOptions {
     std::string model; ///< a file or builtin:NAME; empty where `sequence` is set
     std::filesystem::path output;
     std::optional<std::string> material; ///< a file, a shipped name, or a pattern of frames
+    std::optional<std::string> materialTo; ///< what `material` fades into
+    std::optional<FrameRange> fadeFrames;  ///< while; default: all frames
     std::optional<std::filesystem::path> stats;
     bool aov = false;
 
@@ -63,7 +65,7 @@ struct RenderOptions {
     std::optional<FrameRange> frames;
     double framesPerSecond = 24.0;
     std::optional<std::string> sequence;   ///< a checked pattern of frames
-    std::vector<std::string> deformations; ///< "twist:y:90", as given, in order
+    std::vector<std::string> deformations; ///< "twist:y:90" or a file, as given, in order
 
     // Method
     Solver solver = Solver::Splatting;

@@ -27,7 +27,35 @@ MaterialPointer readMaterialFile(const std::filesystem::path& file) {
     return map;
 }
 
+std::string materialOfFrame(const RenderOptions& options, int frame) {
+    return hasFrameField(*options.material)
+               ? FramePattern("--material", *options.material).name(frame)
+               : *options.material;
+}
+
 } // namespace
+
+bool MaterialOverTime::changes() const {
+    return mOptions.material && (mOptions.materialTo || hasFrameField(*mOptions.material));
+}
+
+MaterialPointer MaterialOverTime::at(int frame) {
+    if (!changes()) {
+        return nullptr;
+    }
+    if (!mOptions.materialTo) {
+        return readMaterialArgument(materialOfFrame(mOptions, frame));
+    }
+    if (!mFade) {
+        mFade.emplace(*readMaterialArgument(*mOptions.material),
+                      *readMaterialArgument(*mOptions.materialTo));
+    }
+    const FrameRange range = mOptions.fadeFrames.value_or(*mOptions.frames);
+    const double t = range.count() > 1
+                         ? static_cast<double>(frame - range.first) / (range.last - range.first)
+                         : (frame < range.first ? 0.0 : 1.0);
+    return std::make_shared<const subedit::MaterialMap>(mFade->at(t));
+}
 
 Scene readModel(const std::string& model) {
     if (model.starts_with(kBuiltinPrefix)) {
@@ -49,10 +77,7 @@ World readWorld(const RenderOptions& options, int frame) {
     std::vector<MaterialPointer> named(scene.materials.size());
     MaterialPointer fallback;
     if (options.material) {
-        const std::string material = hasFrameField(*options.material)
-                                         ? FramePattern("--material", *options.material).name(frame)
-                                         : *options.material;
-        override = readMaterialArgument(material);
+        override = readMaterialArgument(materialOfFrame(options, frame));
     } else {
         std::map<std::filesystem::path, MaterialPointer> read; // one map per file
         for (std::size_t i = 0; i < named.size(); ++i) {

@@ -2,7 +2,9 @@
 
 #include "app/render_options.h"
 #include "renderer/scene/world.h"
+#include "subedit/map/material_fade.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,21 @@ namespace celadon::app {
 
 /// Everything that frame `frame` shows: patterns in model and material are filled in.
 [[nodiscard]] World readWorld(const RenderOptions& options, int frame);
+
+/// A --material that is another in each frame: a numbered sequence of files, or a fade.
+class MaterialOverTime {
+public:
+    /// @param options outlive it
+    explicit MaterialOverTime(const RenderOptions& options) : mOptions(options) {}
+
+    [[nodiscard]] bool changes() const;
+    /// Of frame `frame`; of one that changes, null otherwise: what the world has stays.
+    [[nodiscard]] MaterialPointer at(int frame);
+
+private:
+    const RenderOptions& mOptions;
+    std::optional<subedit::MaterialFade> mFade; ///< read when it is needed first
+};
 
 /// Camera in mm for the picture's aspect.
 [[nodiscard]] Camera cameraOf(const RenderOptions& options, const World& world);

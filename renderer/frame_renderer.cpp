@@ -187,6 +187,10 @@ const gl::Texture* FrameRenderer::draw(const Camera& camera, std::span<const Lig
     return mPasses->draw(camera, lights, interrupt) ? mPasses->color : nullptr;
 }
 
+void FrameRenderer::geometryChanged() {
+    mPasses->shadedKey.clear();
+}
+
 RenderedFrame FrameRenderer::render(const Camera& camera, std::span<const Light> lights) {
     RenderedFrame frame;
     const auto drawWhole = [&] {

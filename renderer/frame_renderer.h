@@ -66,12 +66,14 @@ public:
     [[nodiscard]] RenderedFrame render(const Camera& camera, std::span<const Light> lights);
 
     /// The same for a window: nothing is read back, and highlights and direct light are kept while
-    /// camera and lights stay the same. For a world at rest, of which only materials change.
+    /// camera and lights stay the same, until geometryChanged().
     /// @param interrupt see SolveInput; may be null
     /// @return RGBA32F, rows from the bottom, linear radiance, premultiplied; valid until the next
     ///         call. Null when interrupted.
     const gl::Texture* draw(const Camera& camera, std::span<const Light> lights,
                             const std::atomic<bool>* interrupt);
+    /// Vertices were moved since the last draw().
+    void geometryChanged();
     /// Times of draw()s since the last call. Waits for the GPU.
     [[nodiscard]] StageMilliseconds takeTimes();
     /// The visible surface of the last frame.

@@ -18,8 +18,10 @@ constexpr int kMaxGroups = 512; ///< in x; the rest goes to y
 /// `include/deformer.glsl`
 struct DeformerEntry {
     glm::ivec4 kind;
+    glm::ivec4 lattice;
     glm::vec4 center;
     glm::vec4 amount;
+    glm::vec4 bounds;
 };
 
 /// `vertex_bounds.comp`
@@ -30,7 +32,17 @@ struct BoundsEntry {
     std::uint32_t gone = 0;
 };
 
-enum MapFlags { kHasMap = 1, kHasMiters = 2 };
+/// `include/vertex_pose.glsl`
+enum MeshFlags { kHasMap = 1, kHasMiters = 2, kIsHandled = 4 };
+constexpr std::size_t kHandledFloats = 9;
+
+/// `handles.comp`
+struct NodeEntry {
+    glm::vec4 place;
+    glm::vec4 to;
+    glm::vec4 linear[3];
+};
+static_assert(sizeof(VertexNodes) == 32);
 
 void dispatch(int count) {
     const int groups = (count + kGroup - 1) / kGroup;
@@ -54,6 +66,18 @@ std::vector<float> interleaved(const std::vector<glm::vec3>& positions,
     return result;
 }
 
+/// Values of which there are more or fewer from pose to pose; the buffer grows where it must.
+template<typename T>
+void send(const char* label, const std::vector<T>& values, gl::Buffer& buffer) {
+    const std::size_t bytes = std::max<std::size_t>(values.size(), 4) * sizeof(T);
+    if (buffer.sizeBytes() < bytes) {
+        buffer = gl::Buffer(label, 2 * bytes, gl::BufferUse::Update);
+    }
+    if (!values.empty()) {
+        buffer.write(values);
+    }
+}
+
 float restored(std::uint32_t ordered) {
     return std::bit_cast<float>((ordered & 0x80000000u) != 0 ? ordered & 0x7fffffffu : ~ordered);
 }
@@ -68,10 +92,23 @@ BoundingSphere sphereOf(const BoundsEntry& entry) {
     return sphere;
 }
 
-DeformerEntry entryOf(const Deformer& deformer, const RestBox& box) {
+/// @param firstOffset of a lattice, among those of all lattices
+DeformerEntry entryOf(const Deformer& deformer, const RestBox& box, std::size_t firstOffset) {
     constexpr double kPi = 3.14159265358979323846;
-    const glm::dvec3 center = 0.5 * (box.low + box.high);
-    const double length = box.high[deformer.axis] - box.low[deformer.axis];
+    constexpr double kEverywhere = 1e30;
+    const int axis = deformer.axis;
+    DeformerEntry entry{};
+    entry.kind = {static_cast<int>(deformer.kind), axis, 0, 0};
+    if (deformer.kind == Deformer::Kind::Lattice) {
+        entry.lattice = {deformer.lattice.size, static_cast<int>(firstOffset)};
+        entry.center = glm::vec4(1.0 / (box.high - box.low), 0.0);
+        entry.amount = glm::vec4(box.low, 0.0);
+        return entry;
+    }
+    const glm::dvec2 range = deformer.range.value_or(glm::dvec2(0.0, 1.0));
+    const double extent = box.high[axis] - box.low[axis];
+    const double low = box.low[axis] + range.x * extent;
+    const double length = (range.y - range.x) * extent;
     double rate = deformer.amount;
     double wave = 0.0;
     switch (deformer.kind) {
@@ -86,10 +123,15 @@ DeformerEntry entryOf(const Deformer& deformer, const RestBox& box) {
         wave = 2.0 * kPi / deformer.wavelengthMm;
         break;
     case Deformer::Kind::Inflate:
+    case Deformer::Kind::Lattice:
+    case Deformer::Kind::Handles:
         break;
     }
-    return {glm::ivec4(static_cast<int>(deformer.kind), deformer.axis, 0, 0),
-            glm::vec4(center, length), glm::vec4(rate, wave, box.low[deformer.axis], 0.0)};
+    entry.center = glm::vec4(0.5 * (box.low + box.high), 0.0);
+    entry.amount = glm::vec4(rate, wave, low, 0.0);
+    entry.bounds = deformer.range ? glm::vec4(0.0, length, 0.0, 0.0)
+                                  : glm::vec4(-kEverywhere, kEverywhere, 0.0, 0.0);
+    return entry;
 }
 
 } // namespace
@@ -99,6 +141,7 @@ GpuDeformation::GpuDeformation(const gl::ShaderLibrary& shaders, const World& re
     : mRest(rest),
       mTarget(target),
       mMorph("morph", shaders, {"morph.comp"}),
+      mHandles("handles", shaders, {"handles.comp"}),
       mDeform("deform", shaders, {"deform.comp"}),
       mFlatNormals("flat normals", shaders, {"flat_normals.comp"}),
       mFlip("flip triangles", shaders, {"flip_triangles.comp"}),
@@ -176,17 +219,66 @@ const gl::Buffer& GpuDeformation::morph(MovedMesh& mesh, const std::vector<doubl
 
 void GpuDeformation::sendDeformers(const Pose& pose) {
     std::vector<DeformerEntry> entries;
+    std::vector<glm::vec4> offsets;
     for (const Deformer& deformer : pose.deformers) {
-        entries.push_back(entryOf(deformer, pose.box));
+        entries.push_back(entryOf(deformer, pose.box, offsets.size()));
+        for (const glm::dvec3& offset : deformer.lattice.offsets) {
+            offsets.emplace_back(offset, 0.0);
+        }
     }
-    if (!mDeformers || entries.size() > mDeformerCapacity) {
-        mDeformerCapacity = std::max<std::size_t>(entries.size(), 8);
-        mDeformers = gl::Buffer("deformers", mDeformerCapacity * sizeof(DeformerEntry),
-                                gl::BufferUse::Update);
+    send("deformers", entries, mDeformers);
+    send("lattice offsets", offsets, mLatticeOffsets);
+}
+
+void GpuDeformation::bindVertices(const MovedMesh& mesh, const gl::Buffer& source,
+                                  const gl::Buffer& matrices) const {
+    source.bindStorage(0);
+    orNothing(mesh.map).bindStorage(1);
+    orNothing(mesh.influences).bindStorage(2);
+    matrices.bindStorage(3);
+}
+
+const gl::Buffer& GpuDeformation::orNothing(const gl::Buffer& buffer) const {
+    return buffer ? buffer : mNothing;
+}
+
+void GpuDeformation::sendNodes(const NodePose& pose) {
+    std::vector<NodeEntry> entries;
+    entries.reserve(pose.nodes.size());
+    for (std::size_t n = 0; n < pose.nodes.size(); ++n) {
+        const MovedNode& node = pose.nodes[n];
+        entries.push_back({glm::vec4(pose.binding->places[n], 0.0), glm::vec4(node.to, 0.0),
+                           {glm::vec4(node.linear[0], 0.0), glm::vec4(node.linear[1], 0.0),
+                            glm::vec4(node.linear[2], 0.0)}});
     }
-    if (!entries.empty()) {
-        mDeformers.write(entries);
+    send("nodes", entries, mNodes);
+    if (mNodeBinding == pose.binding) {
+        return;
     }
+    mNodeBinding = pose.binding;
+    for (std::size_t m = 0; m < mMeshes.size(); ++m) {
+        MovedMesh& mesh = mMeshes[m];
+        mesh.vertexNodes = gl::Buffer::of("vertices of nodes", pose.binding->vertices[m]);
+        std::vector<glm::mat4> matrices(pose.binding->restPoses[m].matrices.begin(),
+                                        pose.binding->restPoses[m].matrices.end());
+        matrices.resize(std::max<std::size_t>(matrices.size(), 1), glm::mat4(1.0f));
+        mesh.restMatrices = gl::Buffer::of("rest matrices", matrices);
+        mesh.handled = gl::Buffer("handled", static_cast<std::size_t>(mesh.vertices) *
+                                                 kHandledFloats * sizeof(float));
+    }
+}
+
+const gl::Buffer& GpuDeformation::moveByNodes(MovedMesh& mesh, const gl::Buffer& bound, int flags) {
+    mHandles.use();
+    mHandles.set(0, glm::ivec4(mesh.vertices, mesh.influenceCount, 0, flags));
+    bindVertices(mesh, bound, mesh.restMatrices);
+    mesh.handled.bindStorage(4);
+    mNodes.bindStorage(5);
+    orNothing(mesh.miters).bindStorage(6);
+    mesh.vertexNodes.bindStorage(7);
+    dispatch(mesh.vertices);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    return mesh.handled;
 }
 
 void GpuDeformation::move(std::size_t index, const Pose& pose) {
@@ -198,7 +290,6 @@ void GpuDeformation::move(std::size_t index, const Pose& pose) {
     mesh.isMoved = moves;
     const GpuWorld::Geometry geometry = mTarget.geometry(index);
     const MeshPose& meshPose = pose.meshes[index];
-    const gl::Buffer& bound = morph(mesh, meshPose.weights);
     if (mesh.isBound) {
         const std::vector<glm::mat4> matrices(meshPose.matrices.begin(), meshPose.matrices.end());
         mesh.matrices.write(matrices);
@@ -210,20 +301,20 @@ void GpuDeformation::move(std::size_t index, const Pose& pose) {
         }
         flags |= kHasMiters;
     }
-    const auto orNothing = [&](const gl::Buffer& buffer) -> const gl::Buffer& {
-        return buffer ? buffer : mNothing;
-    };
+    const gl::Buffer* source = &morph(mesh, meshPose.weights);
+    if (pose.nodes) {
+        source = &moveByNodes(mesh, *source, flags);
+        flags |= kIsHandled;
+    }
     mDeform.use();
     mDeform.set(0, glm::ivec4(mesh.vertices, mesh.influenceCount,
                               static_cast<int>(pose.deformers.size()), flags));
     mDeform.set(1, GpuWorld::kVertexFloats);
-    bound.bindStorage(0);
-    orNothing(mesh.map).bindStorage(1);
-    orNothing(mesh.influences).bindStorage(2);
-    mesh.matrices.bindStorage(3);
+    bindVertices(mesh, *source, mesh.matrices);
     geometry.vertices.bindStorage(4);
     mDeformers.bindStorage(5);
     orNothing(mesh.miters).bindStorage(6);
+    mLatticeOffsets.bindStorage(7);
     dispatch(mesh.vertices);
     if (mesh.isMirrored != pose.mirrored[index]) {
         mesh.isMirrored = pose.mirrored[index];
@@ -270,6 +361,9 @@ GpuDeformation::Bounds GpuDeformation::measure(const Pose& pose) {
 GpuDeformation::Bounds GpuDeformation::apply(const Pose& pose) {
     const gl::DebugGroup group("deformation");
     sendDeformers(pose);
+    if (pose.nodes) {
+        sendNodes(*pose.nodes);
+    }
     for (std::size_t m = 0; m < mMeshes.size(); ++m) {
         move(m, pose);
     }

@@ -6,10 +6,11 @@
 #include "renderer/gpu_world.h"
 #include "renderer/scene/motion.h"
 
+#include <memory>
 #include <vector>
 
-/// Moves the vertices of a GpuWorld, on the GPU, once a frame: morph targets, skins and nodes, then
-/// deformers, into the very buffers that the light and the camera passes draw from. The CPU sends
+/// Moves the vertices of a GpuWorld, on the GPU, once a frame: morph targets, handles, skins and
+/// nodes, then deformers, into the very buffers that the light and the camera passes draw from. The CPU sends
 /// matrices and weights and gets 64 bytes of bounds back; it never touches a vertex. Texture
 /// coordinates stay, so that the material stays glued to the surface.
 namespace celadon {
@@ -40,6 +41,8 @@ private:
         gl::Buffer bound;   ///< position and normal of each vertex of the binding
         gl::Buffer morphed; ///< the same with morph targets on; none without
         gl::Buffer map, influences, matrices, miters;
+        gl::Buffer vertexNodes, restMatrices;
+        gl::Buffer handled; ///< position, normal and miter of each drawn vertex; none without handles
         std::vector<Target> targets;
         int vertices = 0;
         int triangles = 0;
@@ -53,15 +56,21 @@ private:
     void addMesh(const WorldMesh& source);
     void move(std::size_t mesh, const Pose& pose);
     [[nodiscard]] const gl::Buffer& morph(MovedMesh& mesh, const std::vector<double>& weights);
+    [[nodiscard]] const gl::Buffer& moveByNodes(MovedMesh& mesh, const gl::Buffer& bound,
+                                                int flags);
+    void bindVertices(const MovedMesh& mesh, const gl::Buffer& source,
+                      const gl::Buffer& matrices) const;
+    [[nodiscard]] const gl::Buffer& orNothing(const gl::Buffer& buffer) const;
     void sendDeformers(const Pose& pose);
+    void sendNodes(const NodePose& pose);
     [[nodiscard]] Bounds measure(const Pose& pose);
 
     const World& mRest;
     const GpuWorld& mTarget;
-    gl::Program mMorph, mDeform, mFlatNormals, mFlip, mBoundsOf;
+    gl::Program mMorph, mHandles, mDeform, mFlatNormals, mFlip, mBoundsOf;
     gl::Buffer mNothing; ///< stands for a buffer that a mesh does not have
-    gl::Buffer mDeformers;
-    std::size_t mDeformerCapacity = 0;
+    gl::Buffer mDeformers, mLatticeOffsets, mNodes;
+    std::shared_ptr<const NodeBinding> mNodeBinding; ///< that the meshes have
     gl::Buffer mBounds;
     std::vector<MovedMesh> mMeshes;
 };

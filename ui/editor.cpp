@@ -6,6 +6,7 @@
 #include "ui/background_open.h"
 #include "ui/journal.h"
 #include "ui/layout.h"
+#include "ui/panels/deform_panel.h"
 #include "ui/panels/file_dialog.h"
 #include "ui/panels/question.h"
 #include "ui/picture_worker.h"
@@ -24,6 +25,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace celadon::ui {
@@ -68,6 +70,7 @@ private:
     void offerRecovery();
     void worldOpened();
     void watchFiles();
+    void advancePlay();
     void setActions();
     void addWindowCommands();
     void savePreferences();
@@ -99,6 +102,7 @@ private:
     std::uint64_t mSeenWorld = 0;
     OpenRequest mWatched; ///< files whose times these are
     std::vector<std::filesystem::file_time_type> mWatchedTimes;
+    std::chrono::steady_clock::time_point mPlayedUntil = std::chrono::steady_clock::now();
     bool mShouldClose = false;
     int mFramesToDraw = kSettlingFrames;
     std::string mWrittenState;
@@ -145,7 +149,7 @@ Editor::Editor(const EditorOptions& options)
 void Editor::addWindowCommands() {
     Dispatcher& commands = mSession.dispatcher();
     commands.add(
-        "window.tab", "Shows a tab of the side bar: brush, profile, material, light, view",
+        "window.tab", "Shows a tab of the side bar: brush, profile, material, light, deform, view",
         [this](const Arguments& a) { mLayout.tab = parseTab(a.text("name")); }, false);
     commands.add(
         "window.show", "Shows or hides panels, help, preferences",
@@ -215,6 +219,24 @@ void Editor::setActions() {
         } else {
             mActions.saveAs();
         }
+    };
+    mActions.openDeformers = [this] {
+        chooseFile(FileDialog::Kind::Open, "Open deformers", {".json"}, "",
+                   [this](const auto& file) { openDeformers(mSession, file); });
+    };
+    mActions.saveDeformers = [this] {
+        const std::string model = std::filesystem::path(mSession.opened().model).extension();
+        std::vector<std::string> suffixes{".json"};
+        if (model == ".glb" || model == ".gltf") {
+            suffixes.push_back(model);
+        }
+        chooseFile(FileDialog::Kind::Save, "Save the deformers", suffixes, "deformers.json",
+                   [this](const auto& file) {
+                       if (mSession.perform({"deform.save", {{"file", file.string()}}})) {
+                           mSession.notify(Notice::Kind::Info,
+                                           fmt::format("Saved '{}'", file.string()));
+                       }
+                   });
     };
     mActions.savePicture = [this] {
         chooseFile(FileDialog::Kind::Save, "Save the picture", {".png"}, "celadon.png",
@@ -321,6 +343,7 @@ void Editor::step() {
         mWindow.clearHadEvents();
         mFramesToDraw = kSettlingFrames;
     }
+    advancePlay();
     const glm::ivec2 size = mWindow.sizePx();
     if (mFramesToDraw > 0 && size.x > 0 && size.y > 0) {
         --mFramesToDraw;
@@ -341,6 +364,19 @@ void Editor::step() {
                                  name.empty() ? "Celadon" : name));
 }
 
+/// Time goes on with the clock, and no further than pictures come: none is skipped for one that
+/// would never be shown.
+void Editor::advancePlay() {
+    const auto now = std::chrono::steady_clock::now();
+    if (!mSession.motion.isPlaying) {
+        mPlayedUntil = now;
+    } else if (!mViewport.isWaiting()) {
+        mSession.advanceTime(std::chrono::duration<double>(now - mPlayedUntil).count());
+        mPlayedUntil = now;
+        mFramesToDraw = std::max(mFramesToDraw, 1);
+    }
+}
+
 double Editor::secondsToSleep() const {
     const glm::ivec2 size = mWindow.sizePx();
     if (mFramesToDraw > 0 && size.x > 0 && size.y > 0) {
@@ -359,6 +395,10 @@ double Editor::secondsToSleep() const {
         seconds = 0.25; // the status bar counts the seconds
     }
     constexpr double kWatchSeconds = 0.5;
+    constexpr double kPlaySeconds = 1.0 / 60.0;
+    if (mSession.motion.isPlaying && (seconds < 0.0 || seconds > kPlaySeconds)) {
+        seconds = kPlaySeconds;
+    }
     if (mOptions.watch && (seconds < 0.0 || seconds > kWatchSeconds)) {
         seconds = kWatchSeconds;
     }
@@ -606,6 +646,7 @@ void Editor::handleKey(const InputEvent& event) {
         mActions.openModel();
         break;
     case Action::Play:
+        togglePlay(mSession);
         break;
     }
 }

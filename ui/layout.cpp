@@ -2,6 +2,7 @@
 
 #include "subedit/errors.h"
 #include "ui/panels/brush_panel.h"
+#include "ui/panels/deform_panel.h"
 #include "ui/panels/help_window.h"
 #include "ui/panels/light_panel.h"
 #include "ui/panels/material_panel.h"
@@ -37,10 +38,11 @@ struct Named {
     const char* label;
     std::string_view word;
 };
-constexpr std::array<Named, 5> kTabs{{{Tab::Brush, "Brush", "brush"},
+constexpr std::array<Named, 6> kTabs{{{Tab::Brush, "Brush", "brush"},
                                       {Tab::Profile, "Profile", "profile"},
                                       {Tab::Materials, "Material", "material"},
                                       {Tab::Light, "Light", "light"},
+                                      {Tab::Deform, "Deform", "deform"},
                                       {Tab::View, "View", "view"}}};
 
 /// Side bar that leaves at least half of a narrow window to the picture.
@@ -173,6 +175,9 @@ void drawSideBar(Session& session, LayoutState& state, const LayoutActions& acti
             case Tab::Light:
                 drawLightPanel(session);
                 break;
+            case Tab::Deform:
+                drawDeformPanel(session, {actions.openDeformers, actions.saveDeformers});
+                break;
             case Tab::Brush:
                 drawBrushPanel(session);
                 break;
@@ -282,7 +287,7 @@ Tab parseTab(std::string_view word) {
         }
     }
     throw UsageError(fmt::format("tab '{}'", word), "there is no such tab",
-                     "choose brush, profile, material, light or view");
+                     "choose brush, profile, material, light, deform or view");
 }
 
 ViewportRect viewportRect(glm::ivec2 windowPx, const LayoutState& state, float scale) {

@@ -12,7 +12,7 @@
 /// The frame around the viewport: menu bar, side bar with its tabs, status bar, notices.
 namespace celadon::ui {
 
-enum class Tab { Brush, Profile, Materials, Light, View };
+enum class Tab { Brush, Profile, Materials, Light, Deform, View };
 /// @throws UsageError
 [[nodiscard]] Tab parseTab(std::string_view word);
 
@@ -20,6 +20,7 @@ enum class Tab { Brush, Profile, Materials, Light, View };
 struct LayoutActions {
     std::function<void()> openModel, openMaterial, openEnvironment;
     std::function<void()> save, saveAs, savePicture, quit;
+    std::function<void()> openDeformers, saveDeformers;
     std::function<void()> preferencesChanged;
     std::function<void(const std::string&)> open;  ///< a recent file or builtin
     std::function<void(const std::string&)> putOn; ///< a material, by name or file

@@ -1,6 +1,8 @@
 #include "ui/picture_worker.h"
 
 #include "renderer/gl/context_glfw.h"
+#include "renderer/gpu_deformation.h"
+#include "renderer/scene/motion.h"
 
 #include <algorithm>
 #include <chrono>
@@ -53,9 +55,13 @@ struct PictureWorker::Renderers {
     };
 
     std::unique_ptr<gl::Context> context;
-    std::shared_ptr<const World> world;
+    std::shared_ptr<const World> restWorld;
+    std::unique_ptr<World> world; ///< the same, with the bounds of what is shown
     std::vector<std::shared_ptr<subedit::MaterialMap>> materials;
     std::shared_ptr<GpuScene> scene;
+    std::unique_ptr<Motion> motion;              ///< of restWorld
+    std::unique_ptr<GpuDeformation> deformation; ///< once something has moved
+    MotionSetting shownMotion;
     std::list<Ready> ready; ///< latest used first
     float knownLog = 0.0f;  ///< largest ln P of all materials, or more
     std::unique_ptr<ToneMapPass> toneMap;
@@ -66,15 +72,43 @@ struct PictureWorker::Renderers {
                   std::vector<std::shared_ptr<subedit::MaterialMap>> newMaterials) {
         dropScene();
         selections.clear();
-        world = std::move(newWorld);
+        motion.reset();
+        restWorld = std::move(newWorld);
+        world = std::make_unique<World>(*restWorld);
         materials = std::move(newMaterials);
+        motion = std::make_unique<Motion>(*restWorld);
         makeScene();
+    }
+
+    /// Moves the vertices to where a picture wants them, if they are not there.
+    void move(const MotionSetting& wanted) {
+        motion->setDeformers(wanted.deformers);
+        motion->selectAnimation(wanted.animation);
+        const bool isAtRest = !deformation && !motion->moves();
+        if (isAtRest || (deformation && shownMotion == wanted)) {
+            return;
+        }
+        const Pose pose = motion->at(wanted.seconds);
+        if (!deformation) {
+            deformation =
+                std::make_unique<GpuDeformation>(scene->shaders, *restWorld, scene->gpuWorld);
+        }
+        shownMotion = {}; // should it fail half way
+        const GpuDeformation::Bounds bounds = deformation->apply(pose);
+        world->scatteringSphere = bounds.scattering;
+        world->sceneSphere = bounds.scene;
+        shownMotion = wanted;
+        for (Ready& entry : ready) {
+            entry.renderer->geometryChanged();
+        }
     }
 
     void dropScene() {
         ready.clear();
         toneMap.reset();
         viewMode.reset();
+        deformation.reset();
+        shownMotion = {};
         scene.reset();
     }
 
@@ -98,6 +132,8 @@ struct PictureWorker::Renderers {
         for (const auto& material : materials) {
             knownLog = std::max(knownLog, *std::ranges::max_element(material->logProfile));
         }
+        world->scatteringSphere = restWorld->scatteringSphere; // vertices are at rest
+        world->sceneSphere = restWorld->sceneSphere;
         scene = std::make_shared<GpuScene>(*world, frameSettings(Quality::Default));
         toneMap = std::make_unique<ToneMapPass>(scene->shaders);
         viewMode = std::make_unique<ViewModePass>(scene->shaders, scene->materials.count());
@@ -268,6 +304,7 @@ void PictureWorker::run() {
 
 void PictureWorker::serve(Renderers& renderers, const PictureRequest& request) {
     Picture picture;
+    renderers.move(request.motion);
     FrameRenderer& renderer = renderers.rendererFor(request, picture.isFirst);
     const auto begin = std::chrono::steady_clock::now();
     const gl::Texture* radiance = renderer.draw(request.camera, request.lights, &mInterrupt);

@@ -7,6 +7,7 @@
 #include "renderer/shading/tone_map_pass.h"
 #include "renderer/shading/view_mode_pass.h"
 #include "subedit/map/texel_rect.h"
+#include "ui/motion_state.h"
 #include "ui/quality_ladder.h"
 
 #include <atomic>
@@ -36,6 +37,7 @@ struct PictureRequest {
     Camera camera; ///< mm
     std::vector<Light> lights;
     bool specular = true;
+    MotionSetting motion;
     WindowDisplay display;
     ViewModeSettings view;
     int overlayMaterial = -1; ///< whose selection is drawn over the picture

@@ -4,6 +4,7 @@
 #include "subedit/errors.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace celadon::ui {
@@ -13,6 +14,7 @@ Session::Session(SessionServices services) : mServices(std::move(services)) {
     addCameraCommands(*this);
     addFileCommands(*this);
     addLightCommands(*this);
+    addMotionCommands(*this);
     addPaintCommands(*this);
     addProfileCommands(*this);
     addViewCommands(*this);
@@ -45,6 +47,8 @@ void Session::adopt(const OpenRequest& request, OpenedScene scene) {
     }
     const bool isSameModel = mWorld != nullptr && mOpened.model == request.model;
     mStrokeMaterial = -1;
+    mShownWorld.reset();
+    mMover.reset();
     mWorld = std::make_shared<const World>(std::move(scene.world));
     mRendered = std::move(scene.rendered);
     mDocuments = std::move(scene.documents);
@@ -70,8 +74,68 @@ void Session::adopt(const OpenRequest& request, OpenedScene scene) {
         selectedLight = 0;
         paint.brush.radiusMm = static_cast<float>(0.08 * mWorld->scatteringSphere.radius);
     }
+    adoptMotion(isSameModel);
     ++mWorldRevision;
     touchPicture();
+}
+
+/// A model that is read again keeps its deformers, animation and time, as far as it still can.
+void Session::adoptMotion(bool isSameModel) {
+    mMover = std::make_unique<Motion>(*mWorld);
+    MotionSetting stored;
+    stored.deformers = mMover->deformers();
+    const MotionState before = std::exchange(motion, {});
+    motion.now = stored;
+    if (isSameModel) {
+        MotionSetting kept = before.now;
+        if (kept.animation && *kept.animation >= mMover->animations().size()) {
+            kept.animation.reset();
+        }
+        try {
+            setMotion(std::move(kept));
+            motion.isPlaying = before.isPlaying;
+            motion.selected = before.selected;
+            motion.control = before.control;
+        } catch (const Error& error) {
+            notify(Notice::Kind::Warning, error.what());
+        }
+    } else if (!mMover->animations().empty()) {
+        stored.animation = 0;
+        setMotion(std::move(stored));
+    }
+}
+
+void Session::setMotion(MotionSetting next) {
+    mMover->setDeformers(next.deformers);
+    mMover->selectAnimation(next.animation);
+    for (const std::string& warning : mMover->warnings()) {
+        if (next.deformers != motion.now.deformers) {
+            notify(Notice::Kind::Warning, warning);
+        }
+    }
+    motion.now = std::move(next);
+    touchPicture();
+}
+
+void Session::advanceTime(double seconds) {
+    const double duration = hasWorld() ? mMover->durationSeconds() : 0.0;
+    if (duration > 0.0) {
+        motion.now.seconds = std::fmod(motion.now.seconds + seconds, duration);
+        touchPicture();
+    }
+}
+
+const std::shared_ptr<const World>& Session::shownWorld() {
+    if (mMover->moves() && (!mShownWorld || mShownSetting != motion.now)) {
+        try {
+            mShownWorld = std::make_shared<const World>(
+                posedWorld(*mWorld, mMover->at(motion.now.seconds)));
+            mShownSetting = motion.now;
+        } catch (const Error&) { // the picture says it
+            return mWorld;
+        }
+    }
+    return mMover->moves() ? mShownWorld : mWorld;
 }
 
 std::vector<std::shared_ptr<subedit::MaterialMap>> Session::takeRenderedMaterials() {

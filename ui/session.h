@@ -1,10 +1,12 @@
 #pragma once
 
 #include "renderer/output/tone_map.h"
+#include "renderer/scene/motion.h"
 #include "renderer/scene/world.h"
 #include "renderer/shading/view_mode_pass.h"
 #include "ui/command.h"
 #include "ui/light_rig.h"
+#include "ui/motion_state.h"
 #include "ui/opened_scene.h"
 #include "ui/paint_state.h"
 
@@ -96,7 +98,18 @@ public:
     [[nodiscard]] bool isModified() const { return mMaterialRevision != mSavedRevision; }
     void markSaved() { mSavedRevision = mMaterialRevision; }
 
+    // Motion (motion_commands.cpp).
+    /// Shows the model so from now on. @throws celadon::Error where it cannot be; nothing changes
+    void setMotion(MotionSetting next);
+    /// While it plays: time goes on, and starts over after the last key.
+    void advanceTime(double seconds);
+    /// The motion of the world as it is set now; handles are solved when it is asked for a pose.
+    [[nodiscard]] const Motion& mover() const { return *mMover; }
+    /// The world as it is shown, for picking; made anew where it has moved since.
+    [[nodiscard]] const std::shared_ptr<const World>& shownWorld();
+
     // State that commands change and widgets read.
+    MotionState motion; ///< `now` is set by setMotion() alone
     Camera camera;
     std::optional<Camera> fileCamera; ///< the view that the scene opens with
     LightRig rig;
@@ -118,9 +131,14 @@ public:
     [[nodiscard]] std::uint64_t materialRevision() const { return mMaterialRevision; }
 
 private:
+    void adoptMotion(bool isSameModel);
+
     SessionServices mServices;
     Dispatcher mDispatcher;
     std::shared_ptr<const World> mWorld;
+    std::unique_ptr<Motion> mMover; ///< of mWorld
+    std::shared_ptr<const World> mShownWorld;
+    MotionSetting mShownSetting; ///< of mShownWorld
     OpenRequest mOpened;
     std::vector<std::shared_ptr<subedit::MaterialMap>> mRendered;
     std::vector<std::unique_ptr<subedit::Document>> mDocuments;
@@ -141,6 +159,7 @@ void addBrushCommands(Session& session);
 void addCameraCommands(Session& session);
 void addFileCommands(Session& session);
 void addLightCommands(Session& session);
+void addMotionCommands(Session& session);
 void addPaintCommands(Session& session);
 void addProfileCommands(Session& session);
 void addViewCommands(Session& session);

@@ -43,6 +43,7 @@ constexpr Shortcut kShortcuts[] = {
     {Action::TurnDown, GLFW_KEY_KP_2, 0, "", "View", nullptr},
     {Action::Initial, GLFW_KEY_KP_0, 0, "Num 0", "View", "The view that the scene opened with"},
     {Action::Projection, GLFW_KEY_KP_5, 0, "Num 5", "View", "Perspective or orthographic"},
+    {Action::Play, GLFW_KEY_SPACE, 0, "Space", "View", "Play or stop animation and deformers"},
     {Action::Panels, GLFW_KEY_H, 0, "H", "Window", "Hide or show the panels"},
     {Action::FullScreen, GLFW_KEY_F11, 0, "F11", "Window", "Full screen"},
     {Action::Help, GLFW_KEY_F1, 0, "F1 or ?", "Window", "These shortcuts"},

@@ -113,6 +113,7 @@ void Viewport::ask(Session& session, int rung) {
     request.camera = session.camera;
     request.lights = session.rig.resolved();
     request.specular = session.view.specular;
+    request.motion = session.motion.now;
     request.display = windowDisplay(session.view);
     request.view = session.view.mode;
     request.overlayMaterial = mHasSelection ? session.activeMaterial : -1;

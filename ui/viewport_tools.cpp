@@ -1,6 +1,7 @@
 #include "ui/viewport_tools.h"
 
 #include "subedit/errors.h"
+#include "ui/deform_controls.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -29,22 +30,33 @@ const RayScene* ViewportTools::rays() {
     if (!mSession.hasWorld()) {
         return nullptr;
     }
-    if (mRayWorld != mSession.sharedWorld()) {
+    if (mRayWorld != mSession.shownWorld()) {
         mRays.reset();
-        mRayWorld = mSession.sharedWorld();
+        mRayWorld = mSession.shownWorld();
         mRays = std::make_unique<RayScene>(*mRayWorld);
     }
     return mRays.get();
 }
 
-std::optional<SurfacePoint> ViewportTools::pick(glm::dvec2 positionPx, const ViewportRect& rect) {
+std::optional<RayScene::Hit> ViewportTools::hitAt(glm::dvec2 positionPx,
+                                                  const ViewportRect& rect) {
     const RayScene* const scene = rays();
     if (scene == nullptr) {
         return std::nullopt;
     }
     const Ray ray = rayThrough(mSession.camera, rect.place(positionPx), rect.aspect());
-    const std::optional<RayScene::Hit> hit = scene->nearest(ray.origin, ray.direction);
+    return scene->nearest(ray.origin, ray.direction);
+}
+
+std::optional<SurfacePoint> ViewportTools::pick(glm::dvec2 positionPx, const ViewportRect& rect) {
+    const std::optional<RayScene::Hit> hit = hitAt(positionPx, rect);
     return hit ? std::optional(surfacePoint(*mRayWorld, hit->place)) : std::nullopt;
+}
+
+std::optional<SurfacePoint> ViewportTools::pickAtRest(glm::dvec2 positionPx,
+                                                      const ViewportRect& rect) {
+    const std::optional<RayScene::Hit> hit = hitAt(positionPx, rect);
+    return hit ? std::optional(surfacePoint(mSession.world(), hit->place)) : std::nullopt;
 }
 
 glm::dvec3 ViewportTools::pivot(glm::dvec2 positionPx, const ViewportRect& rect) {
@@ -70,6 +82,21 @@ int ViewportTools::lightAt(glm::dvec2 positionPx, const ViewportRect& rect) cons
         }
     }
     return -1;
+}
+
+int ViewportTools::controlAt(glm::dvec2 positionPx, const ViewportRect& rect) const {
+    int nearest = -1;
+    double closest = kGizmoReachPx;
+    for (const DeformControl& control : shownControls(mSession)) {
+        const double distance =
+            glm::distance(seenAt(mSession.camera, control.shownMm, rect), positionPx);
+        if (projected(mSession.camera, control.shownMm, rect.aspect()).z > 0.0 &&
+            distance < closest) {
+            closest = distance;
+            nearest = control.index;
+        }
+    }
+    return nearest;
 }
 
 void ViewportTools::handle(const InputEvent& event, const ViewportRect& rect, bool overUi) {
@@ -123,6 +150,13 @@ void ViewportTools::press(const InputEvent& event, const ViewportRect& rect) {
     mButton = event.button;
     mLast = event.positionPx;
     if (event.button == GLFW_MOUSE_BUTTON_LEFT && !alt) {
+        mControl = controlAt(event.positionPx, rect);
+        if (mControl >= 0) {
+            mDrag = Drag::Control;
+            mSession.perform({"deform.select",
+                              {{"deformer", mSession.motion.selected}, {"control", mControl}}});
+            return;
+        }
         mLight = lightAt(event.positionPx, rect);
         if (mLight >= 0) {
             mDrag = Drag::Light;
@@ -181,6 +215,17 @@ void ViewportTools::move(const InputEvent& event, const ViewportRect& rect) {
               {"position", toJson(at + delta.x * mm * frame.right - delta.y * mm * frame.up)}}});
         break;
     }
+    case Drag::Control:
+        for (const DeformControl& control : shownControls(mSession)) {
+            if (control.index == mControl) { // in the plane that faces the camera
+                const double mm = pictureHeightMm(mSession.camera, control.shownMm) / height;
+                const CameraFrame frame = cameraFrame(mSession.camera);
+                mSession.perform(
+                    dragControl(mSession, mControl,
+                                delta.x * mm * frame.right - delta.y * mm * frame.up));
+            }
+        }
+        break;
     case Drag::Paint:
         paintTo(event.positionPx, rect);
         break;
@@ -190,11 +235,22 @@ void ViewportTools::move(const InputEvent& event, const ViewportRect& rect) {
 }
 
 void ViewportTools::pressTool(const InputEvent& event, const ViewportRect& rect) {
+    if (mSession.motion.isAddingHandles) {
+        if (const std::optional<SurfacePoint> place = pickAtRest(event.positionPx, rect)) {
+            const double unit = mSession.world().millimetersPerUnit;
+            constexpr double kHeld = 0.12; // of the model's radius
+            const double radius = kHeld * mSession.world().scatteringSphere.radius;
+            mSession.perform(
+                {"deform.handle.add",
+                 {{"at", toJson(place->positionMm / unit)}, {"radius", radius / unit}}});
+            return;
+        }
+    }
     if (!mSession.services().isPaintable) {
         mDrag = Drag::Orbit;
         return;
     }
-    const std::optional<SurfacePoint> hit = pick(event.positionPx, rect);
+    const std::optional<SurfacePoint> hit = pickAtRest(event.positionPx, rect);
     if (!hit) {
         mDrag = Drag::Orbit; // beside the object the hand turns it
         return;
@@ -239,7 +295,7 @@ void ViewportTools::pressTool(const InputEvent& event, const ViewportRect& rect)
 }
 
 bool ViewportTools::paintPoint(glm::dvec2 positionPx, const ViewportRect& rect) {
-    const std::optional<SurfacePoint> hit = pick(positionPx, rect);
+    const std::optional<SurfacePoint> hit = pickAtRest(positionPx, rect);
     if (!hit || hit->material < 0 ||
         (mSession.isStrokeOpen() && hit->material != mSession.activeMaterial)) {
         mLastPoint.reset();
@@ -367,11 +423,40 @@ void ViewportTools::wheel(const InputEvent& event, const ViewportRect& rect) {
                        {"point", toJson(pivot(event.positionPx, rect))}}});
 }
 
+void ViewportTools::drawControls(ImDrawList& list, const ViewportRect& rect, float scale) const {
+    const std::vector<DeformControl> controls = shownControls(mSession);
+    std::vector<ImVec2> seen;
+    std::vector<bool> isInFront;
+    for (const DeformControl& control : controls) {
+        const glm::dvec2 p = seenAt(mSession.camera, control.shownMm, rect);
+        seen.emplace_back(static_cast<float>(p.x), static_cast<float>(p.y));
+        isInFront.push_back(projected(mSession.camera, control.shownMm, rect.aspect()).z > 0.0);
+    }
+    for (const auto& [a, b] : controlLines(mSession)) {
+        const auto i = static_cast<std::size_t>(a);
+        const auto j = static_cast<std::size_t>(b);
+        if (isInFront[i] && isInFront[j]) {
+            list.AddLine(seen[i], seen[j], IM_COL32(255, 255, 255, 70), 1.0f * scale);
+        }
+    }
+    for (std::size_t i = 0; i < controls.size(); ++i) {
+        if (isInFront[i] && rect.contains({seen[i].x, seen[i].y})) {
+            const bool isChosen = controls[i].index == mSession.motion.control;
+            list.AddCircleFilled(seen[i], (isChosen ? 6.0f : 4.5f) * scale,
+                                 isChosen ? IM_COL32(140, 220, 190, 255)
+                                          : IM_COL32(235, 235, 235, 220), 16);
+            list.AddCircle(seen[i], (isChosen ? 6.0f : 4.5f) * scale, IM_COL32(0, 0, 0, 160), 16,
+                           1.2f * scale);
+        }
+    }
+}
+
 void ViewportTools::drawOverlay(ImDrawList& list, const ViewportRect& rect, float scale) {
     if (!mSession.hasWorld()) {
         return;
     }
     drawBrush(list, rect, scale);
+    drawControls(list, rect, scale);
     const BoundingSphere& object = mSession.world().scatteringSphere;
     for (std::size_t i = 0; i < mSession.rig.lights.size(); ++i) {
         const RigLight& item = mSession.rig.lights[i];

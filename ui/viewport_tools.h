@@ -38,16 +38,23 @@ public:
     }
     [[nodiscard]] glm::dvec2 cursor() const { return mCursor; }
 
-    /// The surface under a window pixel; null beside the object.
+    /// The surface under a window pixel, as it is shown; null beside the object.
     [[nodiscard]] std::optional<SurfacePoint> pick(glm::dvec2 positionPx, const ViewportRect& rect);
+    /// The same point on the rest shape, where materials and handles are.
+    [[nodiscard]] std::optional<SurfacePoint> pickAtRest(glm::dvec2 positionPx,
+                                                         const ViewportRect& rect);
 
 private:
-    enum class Drag { None, Orbit, Pan, Zoom, Light, Paint };
+    enum class Drag { None, Orbit, Pan, Zoom, Light, Control, Paint };
 
     void press(const InputEvent& event, const ViewportRect& rect);
     void move(const InputEvent& event, const ViewportRect& rect);
     void wheel(const InputEvent& event, const ViewportRect& rect);
     [[nodiscard]] int lightAt(glm::dvec2 positionPx, const ViewportRect& rect) const;
+    [[nodiscard]] int controlAt(glm::dvec2 positionPx, const ViewportRect& rect) const;
+    [[nodiscard]] std::optional<RayScene::Hit> hitAt(glm::dvec2 positionPx,
+                                                     const ViewportRect& rect);
+    void drawControls(ImDrawList& list, const ViewportRect& rect, float scale) const;
     [[nodiscard]] glm::dvec3 pivot(glm::dvec2 positionPx, const ViewportRect& rect);
     const RayScene* rays();
     void pressTool(const InputEvent& event, const ViewportRect& rect);
@@ -60,6 +67,7 @@ private:
     Drag mDrag = Drag::None;
     int mButton = -1;
     int mLight = -1;
+    int mControl = -1; ///< that is dragged
     glm::dvec2 mLast{0.0};
     glm::dvec3 mPivot{0.0};
     glm::dvec2 mCursor{-1.0};

@@ -67,12 +67,8 @@ void slerp(std::span<const double> from, std::span<const double> to, double u,
 void cubicSpline(std::span<const double> first, std::span<const double> second, double u, double dt,
                  std::span<double> result) {
     const std::size_t n = result.size();
-    const double u2 = u * u;
-    const double u3 = u2 * u;
     for (std::size_t c = 0; c < n; ++c) {
-        result[c] = (2.0 * u3 - 3.0 * u2 + 1.0) * first[n + c] +
-                    dt * (u3 - 2.0 * u2 + u) * first[2 * n + c] +
-                    (-2.0 * u3 + 3.0 * u2) * second[n + c] + dt * (u3 - u2) * second[c];
+        result[c] = hermite(first[n + c], dt * first[2 * n + c], second[n + c], dt * second[c], u);
     }
 }
 

@@ -17,6 +17,14 @@ struct RigPose {
     std::vector<std::vector<double>> weights; ///< morph weights of each node's mesh
 };
 
+/// The cubic from p_0 to p_1 whose slopes there are m_0 and m_1 per unit of u.
+[[nodiscard]] constexpr double hermite(double p_0, double m_0, double p_1, double m_1, double u) {
+    const double u2 = u * u;
+    const double u3 = u2 * u;
+    return (2.0 * u3 - 3.0 * u2 + 1.0) * p_0 + (u3 - 2.0 * u2 + u) * m_0 +
+           (3.0 * u2 - 2.0 * u3) * p_1 + (u3 - u2) * m_1;
+}
+
 /// The value of a channel at a time; before the first key and after the last it stays.
 /// @param result `components` numbers; a rotation has unit length
 void sampleChannel(const AnimationChannel& channel, double seconds, std::span<double> result);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -17,17 +18,16 @@ namespace {
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
 constexpr double kTwoPi = 2.0 * 3.14159265358979323846;
 
-struct KindName {
-    const char* name;
+struct Form {
     Deformer::Kind kind;
-    const char* form;
+    const char* text;
 };
-constexpr std::array kKinds{
-    KindName{"twist", Deformer::Kind::Twist, "twist:AXIS:DEG"},
-    KindName{"bend", Deformer::Kind::Bend, "bend:AXIS:DEG"},
-    KindName{"taper", Deformer::Kind::Taper, "taper:AXIS:SCALE"},
-    KindName{"wave", Deformer::Kind::Wave, "wave:AXIS:AMPLITUDE_MM:WAVELENGTH_MM"},
-    KindName{"inflate", Deformer::Kind::Inflate, "inflate:MM"},
+constexpr std::array kForms{
+    Form{Deformer::Kind::Twist, "twist:AXIS:DEG"},
+    Form{Deformer::Kind::Bend, "bend:AXIS:DEG"},
+    Form{Deformer::Kind::Taper, "taper:AXIS:SCALE"},
+    Form{Deformer::Kind::Wave, "wave:AXIS:AMPLITUDE_MM:WAVELENGTH_MM"},
+    Form{Deformer::Kind::Inflate, "inflate:MM"},
 };
 
 std::vector<std::string_view> split(std::string_view text) {
@@ -42,19 +42,34 @@ std::vector<std::string_view> split(std::string_view text) {
     }
 }
 
-/// A map and its linear part at a point.
-struct Mapped {
-    glm::dvec3 position;
-    glm::dmat3 jacobian{1.0}; ///< column j: derivative by coordinate j
+/// Where along its axis a deformer runs from nothing to all of it.
+struct Course {
+    double low;    ///< coordinate of t = 0
+    double length; ///< to t = 1, mm
+    bool isBounded;
 };
+
+Course courseOf(const Deformer& deformer, const RestBox& box) {
+    const double low = box.low[deformer.axis];
+    const double length = box.high[deformer.axis] - low;
+    if (!deformer.range) {
+        return {low, length, false};
+    }
+    return {low + deformer.range->x * length, (deformer.range->y - deformer.range->x) * length,
+            true};
+}
 
 Mapped map(const Deformer& deformer, const RestBox& box, const glm::dvec3& p) {
     const int a = deformer.axis;
     const int b = (a + 1) % 3;
     const int c = (a + 2) % 3;
     const glm::dvec3 center = 0.5 * (box.low + box.high);
-    const double length = box.high[a] - box.low[a];
-    const double s = p[a] - box.low[a];
+    const Course course = courseOf(deformer, box);
+    const double length = course.length;
+    const double along = p[a] - course.low;
+    const double s = course.isBounded ? std::clamp(along, 0.0, length) : along;
+    const double beyond = along - s;
+    const double slope = beyond == 0.0 ? 1.0 : 0.0; // of s
     const double u = p[b] - center[b];
     const double v = p[c] - center[c];
     Mapped result{p};
@@ -67,8 +82,8 @@ Mapped map(const Deformer& deformer, const RestBox& box, const glm::dvec3& p) {
         const double turnedV = sine * u + cosine * v;
         result.position[b] = center[b] + turnedU;
         result.position[c] = center[c] + turnedV;
-        result.jacobian[a][b] = -rate * turnedV;
-        result.jacobian[a][c] = rate * turnedU;
+        result.jacobian[a][b] = -slope * rate * turnedV;
+        result.jacobian[a][c] = slope * rate * turnedU;
         result.jacobian[b][b] = result.jacobian[c][c] = cosine;
         result.jacobian[b][c] = sine;
         result.jacobian[c][b] = -sine;
@@ -82,12 +97,13 @@ Mapped map(const Deformer& deformer, const RestBox& box, const glm::dvec3& p) {
         // sin(angle) / rate and (1 - cos(angle)) / rate, without loss where the angle is small
         const double half = std::sin(0.5 * angle);
         const bool isFlat = std::abs(angle) < 1e-6;
-        const double along = isFlat ? s : s * sine / angle;
-        const double across = isFlat ? 0.5 * s * angle : s * 2.0 * half * half / angle;
-        result.position[a] = box.low[a] + along - u * sine;
+        const double forth = (isFlat ? s : s * sine / angle) + beyond * cosine;
+        const double across =
+            (isFlat ? 0.5 * s * angle : s * 2.0 * half * half / angle) + beyond * sine;
+        result.position[a] = course.low + forth - u * sine;
         result.position[b] = center[b] + across + u * cosine;
-        result.jacobian[a][a] = (1.0 - rate * u) * cosine;
-        result.jacobian[a][b] = (1.0 - rate * u) * sine;
+        result.jacobian[a][a] = (1.0 - slope * rate * u) * cosine;
+        result.jacobian[a][b] = (1.0 - slope * rate * u) * sine;
         result.jacobian[b][a] = -sine;
         result.jacobian[b][b] = cosine;
         break;
@@ -97,18 +113,21 @@ Mapped map(const Deformer& deformer, const RestBox& box, const glm::dvec3& p) {
         const double scale = 1.0 + rate * s;
         result.position[b] = center[b] + scale * u;
         result.position[c] = center[c] + scale * v;
-        result.jacobian[a][b] = rate * u;
-        result.jacobian[a][c] = rate * v;
+        result.jacobian[a][b] = slope * rate * u;
+        result.jacobian[a][c] = slope * rate * v;
         result.jacobian[b][b] = result.jacobian[c][c] = scale;
         break;
     }
     case Deformer::Kind::Wave: {
         const double rate = kTwoPi / deformer.wavelengthMm;
         result.position[b] += deformer.amount * std::sin(rate * s);
-        result.jacobian[a][b] = deformer.amount * rate * std::cos(rate * s);
+        result.jacobian[a][b] = slope * deformer.amount * rate * std::cos(rate * s);
         break;
     }
+    case Deformer::Kind::Lattice:
+        return mapThrough(deformer.lattice, box, p);
     case Deformer::Kind::Inflate:
+    case Deformer::Kind::Handles:
         break;
     }
     return result;
@@ -125,18 +144,21 @@ glm::dvec3 normalizedOr(const glm::dvec3& v, const glm::dvec3& otherwise) {
 Deformer parseDeformer(std::string_view text) {
     const std::string subject = fmt::format("--deform '{}'", text);
     const std::vector<std::string_view> parts = split(text);
-    const KindName* found = nullptr;
-    for (const KindName& kind : kKinds) {
-        if (parts[0] == kind.name) {
-            found = &kind;
+    const Form* found = nullptr;
+    for (const Form& form : kForms) {
+        if (parts[0] == split(form.text)[0]) {
+            found = &form;
         }
     }
     if (found == nullptr) {
         throw UsageError(subject, "no such deformer",
-                         "choose one of twist, bend, taper, wave, inflate");
+                         "choose one of twist, bend, taper, wave, inflate, or a FILE.json");
     }
-    const std::string remedy = fmt::format("write {}", found->form);
-    if (parts.size() != split(found->form).size()) {
+    const std::string remedy = fmt::format("write {}", found->text);
+    const std::size_t usual = split(found->text).size();
+    const bool hasRange =
+        found->kind != Deformer::Kind::Inflate && parts.size() == usual + 1;
+    if (parts.size() != usual && !hasRange) {
         throw UsageError(subject, "has too few or too many parts", remedy);
     }
     const auto number = [&](std::string_view part) {
@@ -168,19 +190,40 @@ Deformer parseDeformer(std::string_view text) {
             throw UsageError(subject, "the wavelength is not positive", remedy);
         }
     }
+    if (hasRange) {
+        const auto range = parseNumbers(parts.back());
+        if (!range || range->size() != 2 || !((*range)[0] < (*range)[1])) {
+            throw UsageError(
+                subject, fmt::format("'{}' is no range", parts.back()),
+                "write FROM,TO with FROM < TO, parts of the extent: 0 its low end, 1 its high end");
+        }
+        result.range = glm::dvec2((*range)[0], (*range)[1]);
+    }
     return result;
 }
 
 void checkDeformers(std::span<const Deformer> deformers, const RestBox& box) {
-    for (const Deformer& deformer : deformers) {
-        const int axis = deformer.axis;
-        const bool needsExtent = deformer.kind == Deformer::Kind::Twist ||
-                                 deformer.kind == Deformer::Kind::Bend ||
-                                 deformer.kind == Deformer::Kind::Taper;
-        if (needsExtent && !(box.high[axis] > box.low[axis])) {
+    const auto requireExtent = [&](int axis, const char* remedy) {
+        if (!(box.high[axis] > box.low[axis])) {
             throw UsageError("--deform",
-                             fmt::format("the model has no extent along {}", "xyz"[axis]),
-                             "choose another axis");
+                             fmt::format("the model has no extent along {}", "xyz"[axis]), remedy);
+        }
+    };
+    for (std::size_t i = 0; i < deformers.size(); ++i) {
+        const Deformer& deformer = deformers[i];
+        const bool usesBox = deformer.kind == Deformer::Kind::Twist ||
+                             deformer.kind == Deformer::Kind::Bend ||
+                             deformer.kind == Deformer::Kind::Taper || deformer.range;
+        if (usesBox) {
+            requireExtent(deformer.axis, "choose another axis");
+        }
+        for (int axis = 0; deformer.kind == Deformer::Kind::Lattice && axis < 3; ++axis) {
+            requireExtent(axis, "a lattice needs a solid: use other deformers");
+        }
+        if (deformer.kind == Deformer::Kind::Lattice && flattensAll(deformer.lattice, box)) {
+            throw InputError(fmt::format("deformer {} of {}, a lattice", i + 1, deformers.size()),
+                             "its control points lie in one plane, line or place: nothing is left",
+                             "move them apart");
         }
     }
 }
@@ -190,6 +233,9 @@ void deform(std::span<const Deformer> deformers, const RestBox& box, DeformedVer
         if (deformer.kind == Deformer::Kind::Inflate) {
             // A parallel surface has the same normals.
             vertex.position += deformer.amount * vertex.miter;
+            continue;
+        }
+        if (deformer.kind == Deformer::Kind::Handles) {
             continue;
         }
         const Mapped mapped = map(deformer, box, vertex.position);

@@ -1,14 +1,17 @@
 #pragma once
 
+#include "renderer/scene/lattice.h"
+
 #include <glm/glm.hpp>
 
+#include <optional>
 #include <span>
 #include <string_view>
-#include <vector>
 
-/// Bends of space after Barr 1984 ("Global and local deformations of solid primitives"), as
-/// `--deform` has them (DESIGN section 5): smooth maps of millimeters, applied one after the other
-/// to positions, and by their Jacobians to normals. The same in shaders/include/deformer.glsl.
+/// Bends of space after Barr 1984 ("Global and local deformations of solid primitives") and
+/// free-form lattices, as `--deform` has them (DESIGN section 5): smooth maps of millimeters,
+/// applied one after the other to positions, and by their Jacobians to normals. The same in
+/// shaders/include/deformer.glsl. How they change over time: animated_deformer.h.
 namespace celadon {
 
 /// One deformer. With t from 0 at the low end of the rest box along `axis` to 1 at its high end
@@ -22,25 +25,26 @@ struct Deformer {
         Taper,   ///< distances from the line are multiplied by 1 at t = 0 to `amount` at t = 1
         Wave,    ///< moves along b by `amount` mm times sin(2 pi s / wavelengthMm), s in mm
         Inflate, ///< moves along the normal by `amount` mm; edges are mitered
+        Lattice, ///< `lattice` over the rest box
+        Handles, ///< does nothing here: handles move the rest shape (handle_binding.h)
     };
     Kind kind = Kind::Twist;
-    int axis = 1; ///< 0 x, 1 y, 2 z; of no meaning to Inflate
+    int axis = 1; ///< 0 x, 1 y, 2 z; of no meaning to Inflate, Lattice and Handles
     double amount = 0.0;
     double wavelengthMm = 1.0; ///< Wave; above 0
+    /// Of Twist, Bend, Taper, Wave: t runs from 0 to 1 between these parts of the box, low < high,
+    /// and what lies beyond only goes along. Unset: all of the box, and on beyond.
+    std::optional<glm::dvec2> range;
+    Lattice lattice;
 };
 
-/// "twist:AXIS:DEG", "bend:AXIS:DEG", "taper:AXIS:SCALE", "wave:AXIS:AMPLITUDE_MM:WAVELENGTH_MM" or
-/// "inflate:MM", AXIS one of x, y, z.
+/// "twist:AXIS:DEG", "bend:AXIS:DEG", "taper:AXIS:SCALE", "wave:AXIS:AMPLITUDE_MM:WAVELENGTH_MM",
+/// each with ":FROM,TO" after it or not, or "inflate:MM"; AXIS one of x, y, z.
 /// @throws UsageError
 [[nodiscard]] Deformer parseDeformer(std::string_view text);
 
-/// Axis-aligned, of what scatters at rest, in mm.
-struct RestBox {
-    glm::dvec3 low{0.0};
-    glm::dvec3 high{0.0};
-};
-
-/// @throws UsageError where a deformer's axis is one along which the box has no extent
+/// @throws UsageError where a deformer needs an extent that the box does not have; InputError for a
+///         lattice that flattens everything
 void checkDeformers(std::span<const Deformer> deformers, const RestBox& box);
 
 /// A vertex on its way through the deformers.

@@ -1,5 +1,6 @@
 #include "renderer/scene/describe_scene.h"
 
+#include "renderer/scene/animated_deformer.h"
 #include "renderer/scene/rig.h"
 
 #include <fmt/format.h>
@@ -147,6 +148,16 @@ std::vector<std::string> describeScene(const Scene& scene) {
                                     nameText(animation.name), animation.durationSeconds,
                                     animation.channels.size(),
                                     animation.channels.size() == 1 ? "" : "s"));
+    }
+    const DeformerStack none;
+    const DeformerStack& stack =
+        scene.rig && scene.rig->deformers ? *scene.rig->deformers : none;
+    for (std::size_t i = 0; i < stack.size(); ++i) {
+        const AnimatedDeformer& deformer = stack[i];
+        const double last = deformer.lastSeconds();
+        lines.push_back(fmt::format("deformer {}: {}{}{}", i, deformerName(deformer.kind),
+                                    last > 0.0 ? fmt::format(", keys to {:.6g} s", last) : "",
+                                    deformer.isOn ? "" : ", off"));
     }
     for (const std::string& warning : scene.warnings) {
         lines.push_back("warning: " + warning);

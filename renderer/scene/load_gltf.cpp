@@ -47,7 +47,10 @@ Scene loadGltf(const std::filesystem::path& file, std::string_view content) {
     addMaterials(document, scene);
     dropUnusedLastMaterial(scene);
     addCamerasAndLights(document, rest.nodes, shown, *rig, scene);
-    if (!rig->animations.empty()) {
+    if (!document.deformers.empty()) {
+        rig->deformers = std::make_shared<const DeformerStack>(std::move(document.deformers));
+    }
+    if (!rig->animations.empty() || rig->deformers) {
         scene.rig = rig;
     }
     return scene;

@@ -1,6 +1,7 @@
 #include "renderer/scene/load_gltf_document.h"
 
 #include "renderer/scene/load_bytes.h"
+#include "renderer/scene/load_deformers.h"
 #include "renderer/scene/load_gltf_animation.h"
 #include "renderer/scene/load_gltf_check.h"
 #include "renderer/scene/load_gltf_container.h"
@@ -94,6 +95,21 @@ void listImages(const JsonElement& root, GltfDocument& document) {
     }
 }
 
+/// Of scenes[scene].extras.celadon; extras of other shapes are somebody else's.
+DeformerStack listDeformers(const JsonElement& root) {
+    const std::vector<JsonElement> scenes = root.objects("scenes", "scene");
+    const auto index = root.index("scene", scenes.size(), "scene").value_or(0);
+    if (index >= scenes.size()) {
+        return {};
+    }
+    const auto extras = scenes[index].value().find("extras");
+    if (extras == scenes[index].value().end() || !extras->is_object() ||
+        !extras->contains("celadon")) {
+        return {};
+    }
+    return deformersOf(*scenes[index].object("extras")->object("celadon"));
+}
+
 /// Keeps what we read, so that nothing else can trip tinygltf.
 std::string essentialJson(nlohmann::json& json) {
     nlohmann::json none = nlohmann::json::array();
@@ -131,6 +147,7 @@ void openGltf(const std::filesystem::path& file, std::string_view content, GltfD
     checkGltf(root, sizes);
     listImages(root, document);
     document.animations = listAnimations(root);
+    document.deformers = listDeformers(root);
 
     const std::string essential = essentialJson(json);
     json = nullptr;

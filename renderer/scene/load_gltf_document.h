@@ -1,5 +1,6 @@
 #pragma once
 
+#include "renderer/scene/animated_deformer.h"
 #include "renderer/scene/rig.h"
 
 #include <tiny_gltf.h>
@@ -43,6 +44,7 @@ struct GltfDocument {
     std::vector<std::string_view> buffers; ///< each exactly byteLength long
     std::vector<GltfImage> images;
     std::vector<GltfAnimation> animations;
+    DeformerStack deformers; ///< in the extras of its scene
     std::vector<std::string> warnings;
 
     GltfDocument() = default;

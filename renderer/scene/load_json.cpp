@@ -18,7 +18,7 @@ std::string lineAt(const std::filesystem::path& file, std::string_view text, std
 }
 
 /// tinygltf descends into extensions and extras by recursion: bound it before anybody parses.
-void checkDepth(const std::filesystem::path& file, std::string_view text) {
+void checkDepth(const std::filesystem::path& file, std::string_view text, const char* remedy) {
     int depth = 0;
     bool inString = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -31,8 +31,7 @@ void checkDepth(const std::filesystem::path& file, std::string_view text) {
         } else if (c == '{' || c == '[') {
             if (++depth > kMaxJsonDepth) {
                 throw InputError(lineAt(file, text, i),
-                                 fmt::format("JSON nested deeper than {}", kMaxJsonDepth),
-                                 "export the model again");
+                                 fmt::format("JSON nested deeper than {}", kMaxJsonDepth), remedy);
             }
         } else if (c == '}' || c == ']') {
             --depth;
@@ -42,20 +41,20 @@ void checkDepth(const std::filesystem::path& file, std::string_view text) {
 
 } // namespace
 
-nlohmann::json parseJson(const std::filesystem::path& file, std::string_view text) {
-    checkDepth(file, text);
+nlohmann::json parseJson(const std::filesystem::path& file, std::string_view text,
+                         const char* remedy) {
+    checkDepth(file, text, remedy);
     try {
         nlohmann::json json = nlohmann::json::parse(text);
         if (!json.is_object()) {
-            throw InputError(quoted(file), "its JSON is not an object", "export the model again");
+            throw InputError(quoted(file), "its JSON is not an object", remedy);
         }
         return json;
     } catch (const nlohmann::json::parse_error& error) {
         throw InputError(lineAt(file, text, error.byte), "is not valid JSON here",
-                         "the file is damaged or cut short: export it again");
+                         fmt::format("is the file damaged or cut short? {}", remedy));
     } catch (const nlohmann::json::exception&) { // a number beyond double
-        throw InputError(quoted(file), "its JSON holds a number out of range",
-                         "export the model again");
+        throw InputError(quoted(file), "its JSON holds a number out of range", remedy);
     }
 }
 
@@ -174,7 +173,7 @@ std::optional<JsonElement> JsonElement::object(const char* name) const {
     if (!member->is_object()) {
         fail(fmt::format("'{}' is not an object", name));
     }
-    return JsonElement(*mFile, *member, mPlace.empty() ? name : mPlace + ", " + name);
+    return JsonElement(*mFile, *member, mPlace.empty() ? name : mPlace + ", " + name, mRemedy);
 }
 
 std::vector<JsonElement> JsonElement::objects(const char* name, std::string_view noun) const {
@@ -191,14 +190,13 @@ std::vector<JsonElement> JsonElement::objects(const char* name, std::string_view
         std::string place = mPlace.empty() ? "" : mPlace + ", ";
         place += fmt::format("{} {}", noun, result.size());
         if (!item.is_object()) {
-            throw InputError(quoted(*mFile) + ", " + place, "is not an object",
-                             "export the model again");
+            throw InputError(quoted(*mFile) + ", " + place, "is not an object", mRemedy);
         }
         const auto itsName = item.find("name");
         if (itsName != item.end() && itsName->is_string()) {
             place += fmt::format(" '{}'", excerpt(itsName->get_ref<const std::string&>()));
         }
-        result.emplace_back(*mFile, item, std::move(place));
+        result.emplace_back(*mFile, item, std::move(place), mRemedy);
     }
     return result;
 }

@@ -16,14 +16,17 @@ namespace celadon::loaders {
 inline constexpr int kMaxJsonDepth = 64;
 
 /// @throws InputError with the line: not JSON, not an object, nested deeper than kMaxJsonDepth
-[[nodiscard]] nlohmann::json parseJson(const std::filesystem::path& file, std::string_view text);
+[[nodiscard]] nlohmann::json parseJson(const std::filesystem::path& file, std::string_view text,
+                                       const char* remedy = "export the model again");
 
 /// An element of the document with its place, such as "accessor 3 'positions'". Members that are
 /// absent give nothing; members of the wrong kind or out of range throw InputError.
 class JsonElement {
 public:
-    JsonElement(const std::filesystem::path& file, const nlohmann::json& value, std::string place)
-        : mFile(&file), mValue(&value), mPlace(std::move(place)) {}
+    /// @param remedy what to do where a member is wrong
+    JsonElement(const std::filesystem::path& file, const nlohmann::json& value, std::string place,
+                const char* remedy = "export the model again")
+        : mFile(&file), mValue(&value), mPlace(std::move(place)), mRemedy(remedy) {}
 
     [[nodiscard]] const nlohmann::json& value() const { return *mValue; }
 
@@ -48,13 +51,18 @@ public:
     [[nodiscard]] std::optional<JsonElement> extension(const char* name) const;
 
     [[nodiscard]] std::string where() const;
-    [[noreturn]] void fail(const std::string& reason,
-                           const std::string& remedy = "export the model again") const;
+    [[noreturn]] void fail(const std::string& reason) const { fail(reason, mRemedy); }
+    [[noreturn]] void fail(const std::string& reason, const std::string& remedy) const;
+    /// The same element, with another remedy for it and what is within.
+    [[nodiscard]] JsonElement withRemedy(const char* remedy) const {
+        return JsonElement(*mFile, *mValue, mPlace, remedy);
+    }
 
 private:
     const std::filesystem::path* mFile;
     const nlohmann::json* mValue;
     std::string mPlace;
+    const char* mRemedy;
 
     [[nodiscard]] const nlohmann::json* find(const char* name) const;
 };

@@ -1,11 +1,9 @@
 #include "renderer/scene/motion.h"
+#include "renderer/scene/weld_vertices.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
-#include <numeric>
-#include <utility>
+#include <cstdint>
 
 namespace celadon {
 
@@ -22,25 +20,6 @@ double angleAt(const glm::dvec3& corner, const glm::dvec3& b, const glm::dvec3& 
 glm::dvec3 unitOr(const glm::dvec3& v, const glm::dvec3& otherwise) {
     const double length = glm::length(v);
     return length > 0.0 ? v / length : otherwise;
-}
-
-/// Numbers vertices such that those at one position, and moved as one, share a number.
-std::vector<std::uint32_t> groups(const std::vector<glm::vec3>& positions) {
-    std::vector<std::uint32_t> order(positions.size());
-    std::iota(order.begin(), order.end(), 0u);
-    const auto key = [&](std::uint32_t i) {
-        const glm::vec3 p = positions[i] + 0.0f; // -0 becomes 0
-        return std::array{p.x, p.y, p.z};
-    };
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return std::pair(key(a), a) < std::pair(key(b), b);
-    });
-    std::vector<std::uint32_t> group(positions.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const bool isNew = i == 0 || key(order[i]) != key(order[i - 1]);
-        group[order[i]] = isNew ? order[i] : group[order[i - 1]];
-    }
-    return group;
 }
 
 } // namespace
@@ -63,7 +42,7 @@ std::vector<glm::vec3> miterDirections(const Mesh& rest) {
             normals[corner[k]] = glm::vec3(unitOr(n, glm::dvec3(0.0)));
         }
     }
-    const std::vector<std::uint32_t> group = groups(positions);
+    const std::vector<std::uint32_t> group = weldVertices(positions);
     std::vector<glm::dvec3> sums(positions.size(), glm::dvec3(0.0));
     std::vector<glm::dvec2> heights(positions.size(), glm::dvec2(0.0)); // weighted sum, weights
     const auto forEachCorner = [&](auto&& visit) {

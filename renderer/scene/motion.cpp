@@ -2,6 +2,7 @@
 
 #include "subedit/assert.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -33,6 +34,16 @@ double orientation(const MeshPose& pose) {
     return glm::determinant(glm::dmat3(pose.matrices.front()));
 }
 
+/// Where handles are before they are moved.
+std::vector<PlacedHandle> restPlaces(const AnimatedDeformer& deformer, const World& rest) {
+    std::vector<PlacedHandle> places = deformer.handlesAt(0.0, rest.millimetersPerUnit);
+    for (PlacedHandle& place : places) {
+        place.to = place.at;
+        place.turn = glm::dmat3(1.0);
+    }
+    return places;
+}
+
 } // namespace
 
 Motion::Motion(const World& rest) : mRest(rest), mCameras(rest.cameras), mLights(rest.lights) {
@@ -46,6 +57,9 @@ Motion::Motion(const World& rest) : mRest(rest), mCameras(rest.cameras), mLights
     }
     if (!rest.rig) {
         return;
+    }
+    if (rest.rig->deformers) {
+        setDeformers(*rest.rig->deformers);
     }
     mRestPose = restPose(*rest.rig);
     for (const WorldMesh& part : rest.meshes) {
@@ -62,16 +76,68 @@ std::span<const Animation> Motion::animations() const {
                      : std::span<const Animation>();
 }
 
-void Motion::setDeformers(std::vector<Deformer> deformers) {
-    checkDeformers(deformers, mBox);
-    mDeformers = std::move(deformers);
+void Motion::setDeformers(DeformerStack deformers) {
+    const AnimatedDeformer* const before = handles();
+    const auto placesBefore =
+        before == nullptr ? std::vector<PlacedHandle>() : restPlaces(*before, mRest);
+    deformers.swap(mDeformers);
+    try {
+        static_cast<void>(deformersAt(0.0));
+        const AnimatedDeformer* const after = handles();
+        if (after == nullptr) {
+            mHandles.reset();
+        } else if (restPlaces(*after, mRest) != placesBefore || !mHandles) {
+            mHandles = std::make_unique<HandleSolver>(mRest, restPlaces(*after, mRest));
+        }
+    } catch (...) {
+        mDeformers = std::move(deformers);
+        throw;
+    }
+}
+
+const AnimatedDeformer* Motion::handles() const {
+    const auto found =
+        std::find_if(mDeformers.begin(), mDeformers.end(), [](const AnimatedDeformer& deformer) {
+            return deformer.isOn && deformer.kind == Deformer::Kind::Handles;
+        });
+    return found == mDeformers.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> Motion::warnings() const {
+    return mHandles ? mHandles->warnings() : std::vector<std::string>();
+}
+
+std::optional<HandleSolver::Effort> Motion::handleEffort() const {
+    return mHandles ? std::optional(mHandles->effort()) : std::nullopt;
+}
+
+std::vector<Deformer> Motion::deformersAt(double seconds) const {
+    std::vector<Deformer> result;
+    for (const AnimatedDeformer& deformer : mDeformers) {
+        if (deformer.isOn) {
+            result.push_back(deformer.at(seconds, mRest.millimetersPerUnit));
+        }
+    }
+    checkDeformers(result, mBox);
+    return result;
+}
+
+double Motion::durationSeconds() const {
+    double duration = mAnimation ? animations()[*mAnimation].durationSeconds : 0.0;
+    for (const AnimatedDeformer& deformer : mDeformers) {
+        duration = std::max(duration, deformer.lastSeconds());
+    }
+    return duration;
 }
 
 Pose Motion::at(double seconds) const {
     Pose result;
     result.meshes.resize(mRest.meshes.size());
     result.mirrored.resize(mRest.meshes.size());
-    result.deformers = mDeformers;
+    result.deformers = deformersAt(seconds);
+    if (const AnimatedDeformer* const held = handles()) {
+        result.nodes = mHandles->solve(held->handlesAt(seconds, mRest.millimetersPerUnit));
+    }
     result.box = mBox;
     result.cameras = mCameras;
     result.lights = mLights;

@@ -1,15 +1,19 @@
 #pragma once
 
+#include "renderer/scene/animated_deformer.h"
 #include "renderer/scene/animation.h"
-#include "renderer/scene/deformer.h"
+#include "renderer/scene/handle_solver.h"
 #include "renderer/scene/pose_mesh.h"
 #include "renderer/scene/world.h"
 
+#include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
-/// Everything that moves a world: one of its animations, and deformers after it. Small: vertices
+/// Everything that moves a world: handles on its rest shape, one of its animations, and deformers
+/// after it. Small: vertices
 /// are moved by GpuDeformation, or by posedWorld() on the CPU.
 ///
 ///     Motion motion(world);                      // world at rest, its geometry stays so
@@ -22,6 +26,7 @@ namespace celadon {
 struct Pose {
     std::vector<MeshPose> meshes; ///< of each of World::meshes; without matrices: not bound
     std::vector<bool> mirrored;   ///< of each: its front became its back
+    std::shared_ptr<const NodePose> nodes; ///< what handles do to the rest shape, before all else
     std::vector<Deformer> deformers;
     RestBox box;
     std::vector<Camera> cameras; ///< of each of World::cameras
@@ -37,11 +42,23 @@ public:
     [[nodiscard]] std::span<const Animation> animations() const;
     /// Nothing: the rest pose. @param number below animations().size()
     void selectAnimation(std::optional<std::size_t> number) { mAnimation = number; }
-    /// @throws UsageError: an axis along which the world has no extent
-    void setDeformers(std::vector<Deformer> deformers);
+    /// Instead of those that are stored with the model, which a Motion begins with.
+    /// @throws UsageError: an axis along which the world has no extent; InputError. Nothing has
+    ///         changed then.
+    void setDeformers(DeformerStack deformers);
+    [[nodiscard]] const DeformerStack& deformers() const { return mDeformers; }
+    [[nodiscard]] const RestBox& restBox() const { return mBox; }
+    /// What the user should know about the deformers, one line each.
+    [[nodiscard]] std::vector<std::string> warnings() const;
+    /// What the handles cost; nothing without any.
+    [[nodiscard]] std::optional<HandleSolver::Effort> handleEffort() const;
 
     /// Whether any pose differs from the rest pose.
     [[nodiscard]] bool moves() const { return mAnimation.has_value() || !mDeformers.empty(); }
+    /// Of the animation, or until the last key of the deformers; 0: nothing changes.
+    [[nodiscard]] double durationSeconds() const;
+    /// The animation starts over after its end; deformers stay as their last keys have them.
+    /// @throws InputError for a lattice that flattens everything at that time
     [[nodiscard]] Pose at(double seconds) const;
 
 private:
@@ -51,8 +68,12 @@ private:
     std::optional<RigPose> mRestPose;
     std::vector<double> mRestSigns; ///< of each mesh's first matrix
     std::optional<std::size_t> mAnimation;
-    std::vector<Deformer> mDeformers;
+    DeformerStack mDeformers;
+    std::unique_ptr<HandleSolver> mHandles; ///< its solutions are kept; poses do not depend on it
     RestBox mBox;
+
+    [[nodiscard]] std::vector<Deformer> deformersAt(double seconds) const;
+    [[nodiscard]] const AnimatedDeformer* handles() const; ///< null: none that is on
 };
 
 /// A copy whose vertices are moved, on the CPU in double precision: cameras, lights and bounding

@@ -17,8 +17,10 @@ glm::dmat4 scaled(const glm::dmat4& matrix, double unit) {
     return result;
 }
 
-/// Positions and normals with the morph targets on.
-void morph(const MeshBinding& binding, const std::vector<double>& weights, PosedVertices& result) {
+} // namespace
+
+PosedVertices morphedVertices(const MeshBinding& binding, const std::vector<double>& weights) {
+    PosedVertices result;
     result.positions.assign(binding.positions.begin(), binding.positions.end());
     result.normals.assign(binding.normals.begin(), binding.normals.end());
     for (std::size_t t = 0; t < std::min(binding.targets.size(), weights.size()); ++t) {
@@ -31,9 +33,8 @@ void morph(const MeshBinding& binding, const std::vector<double>& weights, Posed
             }
         }
     }
+    return result;
 }
-
-} // namespace
 
 glm::dmat4 blendedMatrix(const MeshBinding& binding, const MeshPose& pose, std::size_t vertex) {
     if (binding.influences == 0) {
@@ -78,8 +79,7 @@ MeshPose meshPose(const Rig& rig, const MeshBinding& binding, const RigPose& pos
 }
 
 PosedVertices poseVertices(const MeshBinding& binding, const MeshPose& pose) {
-    PosedVertices result;
-    morph(binding, pose.weights, result);
+    PosedVertices result = morphedVertices(binding, pose.weights);
     result.mirrored.resize(result.positions.size());
     glm::dmat4 matrix = pose.matrices[0];
     for (std::size_t i = 0; i < result.positions.size(); ++i) {

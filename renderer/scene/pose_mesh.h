@@ -28,6 +28,10 @@ struct PosedVertices {
     std::vector<bool> mirrored;      ///< the vertex's matrix turns the front to the back
 };
 
+/// With the morph targets on, in the space of the binding: normals of any length, nothing mirrored.
+[[nodiscard]] PosedVertices morphedVertices(const MeshBinding& binding,
+                                            const std::vector<double>& weights);
+
 /// glTF 2.0, 3.7.2.2 (morph targets first) and 3.7.3.3. Normals go by the inverse transpose of the
 /// blended matrix, as the limit where that is singular.
 [[nodiscard]] PosedVertices poseVertices(const MeshBinding& binding, const MeshPose& pose);

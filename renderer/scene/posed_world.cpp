@@ -55,30 +55,46 @@ struct BoundMesh {
     std::vector<glm::dvec3> miters;
 };
 
-BoundMesh boundMesh(const Mesh& mesh, const MeshPose& pose, bool wantsMiters) {
+BoundMesh boundMesh(const World& rest, std::size_t index, const Pose& pose, bool wantsMiters) {
+    const Mesh& mesh = rest.meshes[index].mesh;
+    const MeshPose& meshPose = pose.meshes[index];
+    const bool isBound = !meshPose.matrices.empty();
     BoundMesh result;
     if (wantsMiters) {
         const std::vector<glm::vec3> miters = miterDirections(mesh);
         result.miters.assign(miters.begin(), miters.end());
     }
-    if (pose.matrices.empty()) {
-        result.positions.assign(mesh.positions.begin(), mesh.positions.end());
-        result.normals.assign(mesh.normals.begin(), mesh.normals.end());
-        return result;
+    PosedVertices source; // of the binding, or of the mesh itself
+    if (isBound) {
+        source = morphedVertices(*mesh.binding, meshPose.weights);
+    } else {
+        source.positions.assign(mesh.positions.begin(), mesh.positions.end());
+        source.normals.assign(mesh.normals.begin(), mesh.normals.end());
     }
-    const PosedVertices posed = poseVertices(*mesh.binding, pose);
     result.positions.reserve(mesh.positions.size());
     result.normals.assign(mesh.positions.size(), glm::dvec3(0.0));
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const std::size_t source = mesh.bindingVertices[i];
-        result.positions.push_back(posed.positions[source]);
-        if (!posed.normals.empty()) {
-            result.normals[i] = posed.normals[source];
+        const std::size_t v = isBound ? mesh.bindingVertices[i] : i;
+        const glm::dmat4 matrix =
+            isBound ? blendedMatrix(*mesh.binding, meshPose, v) : glm::dmat4(1.0);
+        glm::dmat4 handled(1.0);
+        if (pose.nodes) { // they move the rest shape, which a bound mesh has after its rest matrix
+            const NodeBinding& nodes = *pose.nodes->binding;
+            const glm::dmat4 toRest =
+                isBound ? blendedMatrix(*mesh.binding, nodes.restPoses[index], v) : glm::dmat4(1.0);
+            if (glm::determinant(glm::dmat3(toRest)) != 0.0) {
+                handled = glm::inverse(toRest) *
+                          affineAt(nodes.vertices[index][i], *pose.nodes) * toRest;
+            }
+        }
+        const glm::dmat3 carrier = cofactors(glm::dmat3(handled)); // a fold turns its normals over
+        result.positions.emplace_back(matrix * handled * glm::dvec4(source.positions[v], 1.0));
+        if (!source.normals.empty()) {
+            result.normals[i] = carryNormal(matrix, carrier * source.normals[v]);
         }
         if (wantsMiters) {
             result.miters[i] =
-                carryNormal(blendedMatrix(*mesh.binding, pose, source), result.miters[i]) *
-                glm::length(result.miters[i]);
+                carryNormal(matrix, carrier * result.miters[i]) * glm::length(result.miters[i]);
         }
     }
     return result;
@@ -88,7 +104,7 @@ BoundMesh boundMesh(const Mesh& mesh, const MeshPose& pose, bool wantsMiters) {
 
 DeformedMesh deformedMesh(const World& rest, std::size_t mesh, const Pose& pose) {
     const Mesh& source = rest.meshes[mesh].mesh;
-    const BoundMesh bound = boundMesh(source, pose.meshes[mesh], needsMiters(pose));
+    const BoundMesh bound = boundMesh(rest, mesh, pose, needsMiters(pose));
     DeformedMesh result{bound.positions, bound.normals};
     for (std::size_t i = 0; i < result.positions.size() && !pose.deformers.empty(); ++i) {
         DeformedVertex vertex{bound.positions[i], bound.normals[i],
@@ -136,11 +152,17 @@ void refuseExplosion(const World& rest, const Pose& pose) {
             return std::find_if(positions.begin(), positions.end(), isGone) != positions.end();
         };
         const std::string subject = fmt::format("mesh '{}'", mesh.name);
-        if (findGone(boundMesh(mesh, pose.meshes[m], false).positions)) {
+        Pose part = pose;
+        part.nodes.reset();
+        if (findGone(boundMesh(rest, m, part, false).positions)) {
             throw InputError(subject, "the animation takes it beyond all numbers",
                              "check the animation's scales, translations and weights");
         }
-        Pose part = pose;
+        part.nodes = pose.nodes;
+        if (findGone(boundMesh(rest, m, part, false).positions)) {
+            throw InputError(subject, "the handles take it beyond all numbers",
+                             "move them less far");
+        }
         for (std::size_t count = 1; count <= pose.deformers.size(); ++count) {
             part.deformers.assign(pose.deformers.begin(),
                                   pose.deformers.begin() + static_cast<std::ptrdiff_t>(count));

@@ -4,12 +4,15 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
-/// What moves a model: a tree of nodes, skins on it, morph targets, and animations of them (glTF
-/// 2.0, 3.7 and 3.11), as read and checked. Indices are in range, numbers finite, nodes form trees.
+/// What moves a model: a tree of nodes, skins on it, morph targets, animations of them (glTF 2.0,
+/// 3.7 and 3.11), and deformers stored with it, as read and checked. Indices are in range, numbers finite, nodes form trees.
 namespace celadon {
+
+struct AnimatedDeformer; // animated_deformer.h
 
 struct RigNode {
     std::string name;
@@ -55,6 +58,8 @@ struct Rig {
     std::vector<Animation> animations;
     std::vector<int> cameraNodes; ///< of each of Scene::cameras
     std::vector<int> lightNodes;  ///< of each of Scene::lights
+    /// Stored with the model (Celadon's own extras); null: none.
+    std::shared_ptr<const std::vector<AnimatedDeformer>> deformers;
 };
 
 struct JointInfluence {

@@ -1,4 +1,5 @@
 #include "renderer/gpu_deformation.h"
+#include "renderer/output/flicker.h"
 #include "subedit/errors.h"
 #include "tests/support/frames.h"
 #include "tests/support/gl_fixture.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -31,8 +33,8 @@ MaterialPointer wax() {
     return test::makeMaterial("wax", 1, 32, 20.0f, [](int, int) { return test::ProfileRecipe{}; });
 }
 
-std::vector<Deformer> deformers(const std::vector<std::string>& texts) {
-    std::vector<Deformer> result;
+DeformerStack deformers(const std::vector<std::string>& texts) {
+    DeformerStack result;
     for (const std::string& text : texts) {
         result.push_back(parseDeformer(text));
     }
@@ -130,6 +132,8 @@ TEST_F(DeformationTest, DeformersMatchDoublePrecision) {
         {"inflate:2"},
         {"inflate:-1"},
         {"taper:y:0.5", "twist:y:180", "inflate:1", "bend:y:60", "wave:z:2:40"},
+        {"twist:y:120:0.213,0.691", "bend:y:90:0.417,1"},
+        {"taper:y:0.3:-0.5,0.373", "wave:y:3:25:0.31,0.77", "bend:z:-70:0.23,0.53"},
         {}};
     for (const std::vector<std::string>& texts : stacks) {
         motion.setDeformers(deformers(texts));
@@ -138,6 +142,100 @@ TEST_F(DeformationTest, DeformersMatchDoublePrecision) {
             what += text + " ";
         }
         compare(rest, scene.gpuWorld, deformation, motion.at(0.0), what);
+    }
+}
+
+/// A lattice whose offsets no symmetry hides.
+AnimatedDeformer crookedLattice(const glm::ivec3& size, double amplitudeUnits) {
+    Deformer lattice;
+    lattice.kind = Deformer::Kind::Lattice;
+    lattice.lattice.size = size;
+    for (int i = 0; i < size.x * size.y * size.z; ++i) {
+        lattice.lattice.offsets.push_back(
+            amplitudeUnits *
+            glm::dvec3(std::sin(i * 1.7), std::cos(i * 2.3 + 1.0), std::sin(i * 0.9 + 2.0)));
+    }
+    return lattice;
+}
+
+TEST_F(DeformationTest, LatticesMatchDoublePrecision) {
+    const World rest = makeWorld("builtin:vase", wax()); // 1 mm per unit
+    Motion motion(rest);
+    const GpuScene scene(rest, {});
+    GpuDeformation deformation(scene.shaders, rest, scene.gpuWorld);
+    for (const glm::ivec3& size :
+         {glm::ivec3(2), glm::ivec3(3, 4, 5), glm::ivec3(8), glm::ivec3(2, 8, 3)}) {
+        motion.setDeformers({crookedLattice(size, 9.0)});
+        compare(rest, scene.gpuWorld, deformation, motion.at(0.0), fmt::format("{} along x", size.x));
+    }
+    // Two of them, and what has left the box before it meets the second.
+    motion.setDeformers({crookedLattice({3, 3, 3}, 6.0), parseDeformer("bend:y:80"),
+                         crookedLattice({2, 5, 2}, 8.0), parseDeformer("inflate:1")});
+    compare(rest, scene.gpuWorld, deformation, motion.at(0.0), "a stack");
+}
+
+/// Handles at the low and the high end of the y axis; the upper one is dragged and turned.
+AnimatedDeformer twoHandles(const World& rest, double share) {
+    AnimatedDeformer deformer;
+    deformer.kind = Deformer::Kind::Handles;
+    const Motion motion(rest);
+    const RestBox box = motion.restBox();
+    const double unit = rest.millimetersPerUnit;
+    const glm::dvec3 center = 0.5 * (box.low + box.high);
+    const double size = box.high.y - box.low.y;
+    for (const double y : {box.low.y, box.high.y}) {
+        Handle handle;
+        handle.at = glm::dvec3(center.x, y, center.z) / unit;
+        handle.radius = 0.12 * size / unit;
+        deformer.handles.push_back(handle);
+    }
+    deformer.handles[1].move = KeyedNumbers::of(glm::dvec3(0.4, -0.1, 0.1) * share * size / unit);
+    deformer.handles[1].turnDegrees = KeyedNumbers::of(glm::dvec3(0.0, 20.0, -40.0) * share);
+    return deformer;
+}
+
+TEST_F(DeformationTest, HandlesMatchDoublePrecision) {
+    // Small: every vertex is a node; large: a proxy carries them.
+    for (const char* const model : {"builtin:vase", "builtin:sphere", "mesh/penguin_27k.obj",
+                                    "mesh/koala_100k.obj", "gltf/Suzanne/Suzanne.gltf"}) {
+        if (!std::string(model).starts_with("builtin") && !test::modelFolder()) {
+            continue;
+        }
+        const World rest = makeWorld(model, wax());
+        Motion motion(rest);
+        const GpuScene scene(rest, {});
+        GpuDeformation deformation(scene.shaders, rest, scene.gpuWorld);
+        for (const double share : {0.3, 1.0}) {
+            motion.setDeformers({twoHandles(rest, share)});
+            compare(rest, scene.gpuWorld, deformation, motion.at(0.0), model);
+        }
+        motion.setDeformers({parseDeformer("twist:y:60"), twoHandles(rest, 0.5),
+                             parseDeformer("inflate:0.7")});
+        compare(rest, scene.gpuWorld, deformation, motion.at(0.0), fmt::format("{}, twisted", model));
+        motion.setDeformers({});
+        compare(rest, scene.gpuWorld, deformation, motion.at(0.0), fmt::format("{} at rest", model));
+    }
+}
+
+// What handles do to the rest shape goes along with the skin and the morph targets.
+TEST_F(DeformationTest, HandlesBendAnimatedModelsToo) {
+    if (!test::modelFolder()) {
+        GTEST_SKIP() << "CELADON_MODELS is not set";
+    }
+    for (const char* const model : {"gltf/CesiumMan.glb", "gltf/RiggedSimple.glb",
+                                    "gltf/MorphPrimitivesTest.glb", "gltf/AnimatedMorphCube.glb"}) {
+        const World rest = makeWorld(model, wax());
+        Motion motion(rest);
+        if (!motion.animations().empty()) {
+            motion.selectAnimation(0);
+        }
+        const GpuScene scene(rest, {});
+        GpuDeformation deformation(scene.shaders, rest, scene.gpuWorld);
+        motion.setDeformers({twoHandles(rest, 0.5), parseDeformer("inflate:0.5")});
+        for (const double seconds : {0.0, 0.31, 0.77, 1.3}) {
+            compare(rest, scene.gpuWorld, deformation, motion.at(seconds),
+                    fmt::format("{} at {} s", model, seconds));
+        }
     }
 }
 
@@ -190,6 +288,43 @@ TEST_F(DeformationTest, HighlightsMoveWithTheShape) {
     const FloatImage moved = extractLayer(renderer.render(camera, lights).image, "");
     // Normals differ in their last bits, and highlights are sharp.
     EXPECT_LT(compareValues(moved, expected).relativeRmse, 0.01);
+}
+
+// What the pictures of a slow bend change from frame to frame beyond what the reference's change.
+TEST_F(DeformationTest, ASlowDeformationDoesNotPop) {
+    World rest = makeWorld("builtin:vase", wax());
+    Motion motion(rest);
+    const FrameSettings fast = test::smallFrame({96, 96}, 256, Scheme::Hierarchical);
+    FrameSettings exact = fast;
+    exact.solver = SolverKind::ImageReference;
+    const auto scene = std::make_shared<const GpuScene>(rest, fast);
+    FrameRenderer splatting(context(), scene, fast);
+    FrameRenderer reference(context(), scene, exact);
+    GpuDeformation deformation(scene->shaders, rest, scene->gpuWorld);
+    const Camera camera = test::defaultCamera(rest, fast.size);
+    const std::vector<Light> lights{test::backLight(), test::frontLight()};
+    std::vector<FloatImage> shown;
+    std::vector<FloatImage> truth;
+    double largest = 0.0;
+    double change = 0.0;
+    for (int frame = 0; frame < 6; ++frame) {
+        motion.setDeformers(deformers({fmt::format("bend:y:{}", 12.0 + 0.8 * frame)}));
+        const GpuDeformation::Bounds bounds = deformation.apply(motion.at(0.0));
+        rest.scatteringSphere = bounds.scattering;
+        rest.sceneSphere = bounds.scene;
+        shown.push_back(extractLayer(splatting.render(camera, lights).image, "exitance"));
+        truth.push_back(extractLayer(reference.render(camera, lights).image, "exitance"));
+        if (frame > 0) {
+            const auto n = static_cast<std::size_t>(frame);
+            const Flicker flicker =
+                measureFlicker({shown[n - 1], shown[n]}, {truth[n - 1], truth[n]});
+            largest = std::max(largest, flicker.beyondTruth);
+            change = std::max(change, flicker.trueChange);
+        }
+    }
+    RecordProperty("largestPercent", std::to_string(100.0 * largest));
+    EXPECT_LT(largest, 0.01);
+    EXPECT_GT(change, 0.01); // it does move
 }
 
 TEST_F(DeformationTest, LightThroughAPlateFollowsItsThickness) {

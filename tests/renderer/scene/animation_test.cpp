@@ -223,6 +223,48 @@ TEST_F(AnimatedGltf, WeightsThatDoNotSumToOneAreScaledWithAWarning) {
     EXPECT_EQ(scene.meshes[0].positions[1], glm::vec3(1, 0, 0));
 }
 
+TEST_F(AnimatedGltf, SkinsWithMissingJointsAreRefused) {
+    const auto joints = [&](std::uint8_t last) {
+        std::vector<std::uint8_t> indices(12, 0);
+        indices[8] = last;
+        return mGltf.addAccessor(mGltf.addView(loadtest::bytesOf(indices)), "VEC4", 5121, 3);
+    };
+    mGltf.primitive()["attributes"]["WEIGHTS_0"] =
+        mGltf.addFloats({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, "VEC4");
+    mGltf.primitive()["attributes"]["JOINTS_0"] = joints(2);
+    mGltf.json["nodes"][0]["skin"] = 0;
+    EXPECT_THAT(refusal(), HasSubstr("'skin' is 0")); // there is none at all
+    mGltf.json["skins"] = {{{"joints", {0, 9}}}};
+    EXPECT_THAT(refusal(), HasSubstr("'joints' holds 9"));
+    mGltf.json["skins"] = {{{"joints", {0}}}};
+    EXPECT_THAT(refusal(), HasSubstr("joint 2 of vertex 2 is past"));
+    mGltf.primitive()["attributes"]["JOINTS_0"] = joints(0);
+    EXPECT_NO_THROW((void)load());
+}
+
+// Two sets of four influences; the second one holds what counts.
+TEST_F(AnimatedGltf, EightInfluencesAreBlended) {
+    const int joints = mGltf.addAccessor(
+        mGltf.addView(loadtest::bytesOf(std::vector<std::uint8_t>(12, 0))), "VEC4", 5121, 3);
+    mGltf.json["nodes"].push_back({{"translation", {0, 0, 8}}});
+    mGltf.json["scenes"][0]["nodes"].push_back(1);
+    const int others = mGltf.addAccessor(
+        mGltf.addView(loadtest::bytesOf(std::vector<std::uint8_t>(12, 1))), "VEC4", 5121, 3);
+    nlohmann::json& attributes = mGltf.primitive()["attributes"];
+    attributes["JOINTS_0"] = joints;
+    attributes["JOINTS_1"] = others;
+    attributes["WEIGHTS_0"] = mGltf.addFloats({0.5f, 0.25f, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}, "VEC4");
+    attributes["WEIGHTS_1"] =
+        mGltf.addFloats({0.125f, 0.125f, 0, 0, 0, 0, 0, 0, 0.25f, 0.25f, 0.25f, 0.25f}, "VEC4");
+    mGltf.json["skins"] = {{{"joints", {0, 1}}}}; // inverse bind matrices absent: identities
+    mGltf.json["nodes"][0]["skin"] = 0;
+    const Scene scene = load();
+    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_EQ(scene.meshes[0].positions[0], glm::vec3(0, 0, 2));
+    EXPECT_EQ(scene.meshes[0].positions[1], glm::vec3(1, 0, 0));
+    EXPECT_EQ(scene.meshes[0].positions[2], glm::vec3(0, 1, 8));
+}
+
 TEST_F(AnimatedGltf, AnExplosionNamesMeshAndCause) {
     animation()["samplers"][0]["output"] = mGltf.addFloats({0, 0, 0, 3e38f, 0, 0, 0, 0, 0}, "VEC3");
     const World rest = world();

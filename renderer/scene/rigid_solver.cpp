@@ -1,0 +1,308 @@
+#include "renderer/scene/rigid_solver.h"
+
+#include "subedit/assert.h"
+
+#include <Eigen/SparseCholesky>
+#include <glm/gtc/quaternion.hpp>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace celadon {
+
+namespace {
+
+constexpr int kFree = -1;
+/// Cotangents of obtuse angles are negative, and would let a point run away from its neighbors.
+constexpr double kLeastWeight = 0.05;
+constexpr double kGreatestWeight = 20.0; // of slivers
+
+/// Half the sum of the cotangents of the angles that face each edge, in the order of neighbors.
+std::vector<double> cotangentWeights(const SurfaceGraph& graph) {
+    std::vector<double> weights(graph.neighbors.size(), 0.0);
+    const auto add = [&](std::uint32_t a, std::uint32_t b, double weight) {
+        const auto row = graph.neighborsOf(a);
+        const auto found = std::lower_bound(row.begin(), row.end(), b);
+        weights[graph.starts[a] + static_cast<std::size_t>(found - row.begin())] += weight;
+    };
+    for (const Triangle& t : graph.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const glm::dvec3 u = graph.points[t[(k + 1) % 3]] - graph.points[t[k]];
+            const glm::dvec3 v = graph.points[t[(k + 2) % 3]] - graph.points[t[k]];
+            const double area2 = glm::length(glm::cross(u, v));
+            const double cotangent = area2 > 0.0 ? glm::dot(u, v) / area2 : 0.0;
+            add(t[(k + 1) % 3], t[(k + 2) % 3], 0.5 * cotangent);
+            add(t[(k + 2) % 3], t[(k + 1) % 3], 0.5 * cotangent);
+        }
+    }
+    for (double& weight : weights) {
+        weight = std::clamp(weight, kLeastWeight, kGreatestWeight);
+    }
+    return weights;
+}
+
+/// The rotation next to a matrix, from one that is near (Mueller, Bender, Chentanez, Macklin 2016,
+/// "A robust method to extract the rotational part of deformations").
+glm::dmat3 rotationOf(const glm::dmat3& matrix, const glm::dmat3& guess) {
+    constexpr int kMostSteps = 30;
+    constexpr double kSmallestTurn = 1e-10; // radians
+    double size = 0.0;
+    for (int c = 0; c < 3; ++c) {
+        size += glm::dot(matrix[c], matrix[c]);
+    }
+    size = std::sqrt(size);
+    if (!(size > 0.0)) {
+        return guess;
+    }
+    glm::dquat q = glm::quat_cast(guess);
+    for (int step = 0; step < kMostSteps; ++step) {
+        const glm::dmat3 R = glm::mat3_cast(q);
+        glm::dvec3 axis(0.0);
+        double along = 0.0;
+        for (int c = 0; c < 3; ++c) {
+            axis += glm::cross(R[c], matrix[c]);
+            along += glm::dot(R[c], matrix[c]);
+        }
+        const glm::dvec3 omega = axis / (std::abs(along) + 1e-9 * size);
+        const double angle = glm::length(omega);
+        if (!(angle > kSmallestTurn)) {
+            break;
+        }
+        q = glm::normalize(glm::angleAxis(angle, omega / angle) * q);
+    }
+    return glm::mat3_cast(q);
+}
+
+/// Two edges and a normal as long as they are on average: a triangle as a frame of space.
+glm::dmat3 frameOf(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double height) {
+    const glm::dvec3 n = glm::cross(b - a, c - a);
+    const double length = glm::length(n);
+    return {b - a, c - a, length > 0.0 ? height / length * n : glm::dvec3(0.0)};
+}
+
+} // namespace
+
+struct RigidSolver::State {
+    const SurfaceGraph& graph;
+    std::vector<std::uint32_t> held;
+    std::vector<double> weights;
+    std::vector<int> unknown; ///< of each point its row in the system, or kFree - where it is held
+    std::vector<std::uint32_t> freePoints;
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor;
+    std::vector<glm::dvec3> positions;
+    std::vector<glm::dmat3> rotations;
+
+    State(const SurfaceGraph& graph_, std::vector<std::uint32_t> held_)
+        : graph(graph_), held(std::move(held_)), weights(cotangentWeights(graph_)) {
+        unknown.assign(graph.points.size(), 0);
+        for (const std::uint32_t point : held) {
+            unknown[point] = kFree;
+        }
+        for (std::uint32_t i = 0; i < unknown.size(); ++i) {
+            if (unknown[i] != kFree) {
+                unknown[i] = static_cast<int>(freePoints.size());
+                freePoints.push_back(i);
+            }
+        }
+        std::vector<Eigen::Triplet<double>> entries;
+        for (const std::uint32_t i : freePoints) {
+            double diagonal = 0.0;
+            for (std::size_t e = graph.starts[i]; e < graph.starts[i + 1]; ++e) {
+                diagonal += weights[e];
+                const int j = unknown[graph.neighbors[e]];
+                if (j != kFree) {
+                    entries.emplace_back(unknown[i], j, -weights[e]);
+                }
+            }
+            entries.emplace_back(unknown[i], unknown[i], diagonal);
+        }
+        const auto size = static_cast<Eigen::Index>(freePoints.size());
+        Eigen::SparseMatrix<double> system(size, size);
+        system.setFromTriplets(entries.begin(), entries.end());
+        if (size > 0) {
+            factor.compute(system);
+            CELADON_ASSERT(factor.info() == Eigen::Success); // diagonally dominant
+        }
+        positions = graph.points;
+        rotations.assign(graph.points.size(), glm::dmat3(1.0));
+    }
+
+    template<typename Work>
+    static void forEach(std::size_t count, const Work& work) {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 256),
+                          [&](const tbb::blocked_range<std::size_t>& range) {
+                              for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                                  work(i);
+                              }
+                          });
+    }
+
+    double energy() const {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            for (std::size_t e = graph.starts[i]; e < graph.starts[i + 1]; ++e) {
+                const std::size_t j = graph.neighbors[e];
+                const glm::dvec3 difference =
+                    positions[j] - positions[i] -
+                    rotations[i] * (graph.points[j] - graph.points[i]);
+                sum += weights[e] * glm::dot(difference, difference);
+            }
+        }
+        return sum;
+    }
+
+    /// Quaternions that are the mean of their neighbors', weighted as edges are, at free points.
+    void spreadTurns() {
+        const auto size = static_cast<Eigen::Index>(freePoints.size());
+        if (size == 0 || held.empty()) {
+            return;
+        }
+        const glm::dquat first = glm::quat_cast(rotations[held[0]]);
+        Eigen::Matrix<double, Eigen::Dynamic, 4> right(size, 4);
+        right.setZero();
+        for (std::size_t f = 0; f < freePoints.size(); ++f) {
+            const std::size_t i = freePoints[f];
+            for (std::size_t e = graph.starts[i]; e < graph.starts[i + 1]; ++e) {
+                const std::size_t j = graph.neighbors[e];
+                if (unknown[j] == kFree) {
+                    const glm::dquat q = glm::quat_cast(rotations[j]);
+                    const double weight = weights[e] * (glm::dot(q, first) < 0.0 ? -1.0 : 1.0);
+                    right.row(static_cast<Eigen::Index>(f)) +=
+                        weight * Eigen::RowVector4d(q.w, q.x, q.y, q.z);
+                }
+            }
+        }
+        const Eigen::Matrix<double, Eigen::Dynamic, 4> turns = factor.solve(right);
+        for (std::size_t f = 0; f < freePoints.size(); ++f) {
+            const auto row = turns.row(static_cast<Eigen::Index>(f));
+            const glm::dquat q(row(0), row(1), row(2), row(3));
+            const double length = glm::length(q);
+            rotations[freePoints[f]] = length > 0.0 ? glm::mat3_cast(q / length) : glm::dmat3(1.0);
+        }
+    }
+
+    /// The rotation of each free point that fits its edges best (eq. 5).
+    void localStep() {
+        forEach(freePoints.size(), [&](std::size_t f) {
+            const std::size_t i = freePoints[f];
+            glm::dmat3 covariance(0.0);
+            for (std::size_t e = graph.starts[i]; e < graph.starts[i + 1]; ++e) {
+                const std::size_t j = graph.neighbors[e];
+                covariance += weights[e] * glm::outerProduct(positions[j] - positions[i],
+                                                             graph.points[j] - graph.points[i]);
+            }
+            rotations[i] = rotationOf(covariance, rotations[i]);
+        });
+    }
+
+    /// The positions that fit the rotations best (eqs. 8, 9). @return the longest way of a point
+    double globalStep() {
+        const auto size = static_cast<Eigen::Index>(freePoints.size());
+        if (size == 0) {
+            return 0.0;
+        }
+        Eigen::Matrix<double, Eigen::Dynamic, 3> right(size, 3);
+        forEach(freePoints.size(), [&](std::size_t f) {
+            const std::size_t i = freePoints[f];
+            glm::dvec3 sum(0.0);
+            for (std::size_t e = graph.starts[i]; e < graph.starts[i + 1]; ++e) {
+                const std::size_t j = graph.neighbors[e];
+                sum += 0.5 * weights[e] *
+                       ((rotations[i] + rotations[j]) * (graph.points[i] - graph.points[j]));
+                if (unknown[j] == kFree) {
+                    sum += weights[e] * positions[j];
+                }
+            }
+            for (int c = 0; c < 3; ++c) {
+                right(static_cast<Eigen::Index>(f), c) = sum[c];
+            }
+        });
+        tbb::parallel_for(0, 3, [&](int c) { right.col(c) = factor.solve(right.col(c)).eval(); });
+        double longest = 0.0;
+        for (std::size_t f = 0; f < freePoints.size(); ++f) {
+            glm::dvec3& position = positions[freePoints[f]];
+            const auto row = right.row(static_cast<Eigen::Index>(f));
+            const glm::dvec3 next(row(0), row(1), row(2));
+            longest = std::max(longest, glm::length(next - position));
+            position = next;
+        }
+        return longest;
+    }
+};
+
+RigidSolver::RigidSolver(const SurfaceGraph& graph, std::vector<std::uint32_t> held)
+    : mState(std::make_unique<State>(graph, std::move(held))) {}
+RigidSolver::~RigidSolver() = default;
+RigidSolver::RigidSolver(RigidSolver&&) noexcept = default;
+RigidSolver& RigidSolver::operator=(RigidSolver&&) noexcept = default;
+
+void RigidSolver::start(std::span<const MovedNode> guess) {
+    CELADON_ASSERT(guess.size() == mState->positions.size());
+    for (std::size_t i = 0; i < guess.size(); ++i) {
+        mState->positions[i] = guess[i].to;
+        mState->rotations[i] = rotationOf(guess[i].linear, glm::dmat3(1.0));
+    }
+}
+
+void RigidSolver::startFromHeld() {
+    mState->spreadTurns();
+    static_cast<void>(mState->globalStep());
+}
+
+void RigidSolver::setTargets(std::span<const HeldPoint> targets) {
+    CELADON_ASSERT(targets.size() == mState->held.size());
+    for (std::size_t k = 0; k < targets.size(); ++k) {
+        mState->positions[mState->held[k]] = targets[k].to;
+        mState->rotations[mState->held[k]] = targets[k].turn;
+    }
+}
+
+double RigidSolver::iterate() {
+    mState->localStep();
+    return mState->globalStep();
+}
+
+double RigidSolver::energy() const {
+    return mState->energy();
+}
+
+std::span<const glm::dvec3> RigidSolver::positions() const {
+    return mState->positions;
+}
+
+std::span<const glm::dmat3> RigidSolver::rotations() const {
+    return mState->rotations;
+}
+
+std::vector<MovedNode> RigidSolver::nodes() const {
+    const SurfaceGraph& graph = mState->graph;
+    std::vector<MovedNode> result(graph.points.size());
+    std::vector<glm::dmat3> sums(result.size(), glm::dmat3(0.0));
+    std::vector<double> areas(result.size(), 0.0);
+    for (const Triangle& t : graph.triangles) {
+        const auto frame = [&](const std::vector<glm::dvec3>& p, double height) {
+            return frameOf(p[t[0]], p[t[1]], p[t[2]], height);
+        };
+        const glm::dmat3 flat = frame(graph.points, 1.0);
+        const double area = glm::length(glm::cross(flat[0], flat[1]));
+        if (!(area > 0.0)) {
+            continue;
+        }
+        const double height = std::sqrt(area);
+        const glm::dmat3 before = frame(graph.points, height);
+        const glm::dmat3 map = frame(mState->positions, height) * glm::inverse(before);
+        for (const std::uint32_t i : t) {
+            sums[i] += area * map;
+            areas[i] += area;
+        }
+    }
+    for (std::size_t i = 0; i < result.size(); ++i) {
+        result[i].to = mState->positions[i];
+        result[i].linear = areas[i] > 0.0 ? sums[i] / areas[i] : mState->rotations[i];
+    }
+    return result;
+}
+
+} // namespace celadon
