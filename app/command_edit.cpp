@@ -125,7 +125,6 @@ void edit(EditOptions o) {
         session.fileCamera = session.camera;
         if (!scene.lights.empty()) {
             session.rig.lights.clear();
-            options.environment.reset();
             for (const Light& light : lightsOf(options, session.world(), session.camera)) {
                 session.rig.lights.push_back({ui::lightKindName(light.kind), true, light});
             }

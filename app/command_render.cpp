@@ -5,6 +5,7 @@
 #include "app/progress.h"
 #include "app/render_motion.h"
 #include "app/render_scene.h"
+#include "renderer/environment_background.h"
 #include "renderer/frame_renderer.h"
 #include "renderer/gpu_deformation.h"
 #include "renderer/output/atomic_file.h"
@@ -66,7 +67,10 @@ FrameSettings frameSettings(const RenderOptions& options) {
         splatting.scheme = Scheme::Paper;
         splatting.energy = SplattingSettings().energy;
     }
-    splatting.irradianceSize = options.irradianceSize.value_or(splatting.irradianceSize);
+    if (options.irradianceSize) {
+        splatting.irradianceSize = *options.irradianceSize;
+        splatting.refineShortRanges = false;
+    }
     if (options.levels) {
         splatting.irradianceLevels = options.levels->irradiance;
         splatting.splattingLevels = options.levels->splatting;
@@ -103,7 +107,6 @@ RenderStats statsHead(const RenderOptions& options, const FrameSettings& setting
                         : "cpu";
     stats.width = settings.size.x;
     stats.height = settings.size.y;
-    stats.irradianceSize = settings.splatting.irradianceSize;
     stats.irradianceLevels = settings.splatting.adaptive ? settings.splatting.irradianceLevels : 1;
     stats.splattingLevels =
         settings.splatting.multiresolution ? settings.splatting.splattingLevels : 1;
@@ -183,10 +186,11 @@ void warnAboutRadius(const World& world, const FrameStats& stats) {
 class FrameMaker {
 public:
     FrameMaker(const RenderOptions& options, const FrameSettings& settings,
-               const gl::Context& context, World world)
+               const gl::Context& context, const Environment& environment, World world)
         : mOptions(options),
           mSettings(settings),
           mContext(context),
+          mEnvironment(environment),
           mWorld(std::move(world)),
           mRestBounds{mWorld.scatteringSphere, mWorld.sceneSphere},
           mMotion(
@@ -210,6 +214,7 @@ public:
         } catch (const InputError& error) {
             throw InputError(fmt::format("frame {} at {:g} s", number, seconds), error.what());
         }
+        mRenderer->setEnvironment(mEnvironment);
         RenderedFrame frame = mRenderer->render(camera, lights);
         frame.stats.frame = number;
         frame.stats.milliseconds.deformation = deformationMs;
@@ -219,15 +224,20 @@ public:
         if (frame.seesScattering) {
             warnAboutRadius(shown, frame.stats);
         }
+        if (mOptions.environmentBehind) {
+            frame.image = compositeOverEnvironment(std::move(frame.image), mEnvironment, camera);
+        }
         return frame;
     }
 
+    [[nodiscard]] int irradianceSize() const { return mRenderer->irradianceSize(); }
     [[nodiscard]] double millimetersPerUnit() const { return mWorld.millimetersPerUnit; }
 
 private:
     const RenderOptions& mOptions;
     const FrameSettings& mSettings;
     const gl::Context& mContext;
+    const Environment& mEnvironment;
     World mWorld; ///< vertices at rest; cameras, lights and bounds of the frame
     GpuDeformation::Bounds mRestBounds;
     Motion mMotion;
@@ -289,21 +299,24 @@ void render(const RenderOptions& options) {
         options.sequence || (options.material && hasFrameField(*options.material));
 
     World first = readWorld(options, frames.first); // bad input is said before GL starts
+    const Environment environment = environmentOf(options);
     static_cast<void>(
         makeMotion(first, {options.animation, options.timeSeconds, options.deformations}));
     const std::unique_ptr<gl::Context> context = gl::createContext(options.context);
     log::info("context {}: {}", context->description(), context->renderer());
     RenderStats stats = statsHead(options, settings, *context);
-    auto maker = std::make_unique<FrameMaker>(options, settings, *context, std::move(first));
+    auto maker =
+        std::make_unique<FrameMaker>(options, settings, *context, environment, std::move(first));
     Progress progress("frames", static_cast<std::size_t>(frames.count()));
     for (int number = frames.first; number <= frames.last; ++number) {
         if (worldChanges && number > frames.first) {
             maker.reset();
-            maker = std::make_unique<FrameMaker>(options, settings, *context,
+            maker = std::make_unique<FrameMaker>(options, settings, *context, environment,
                                                  readWorld(options, number));
         }
         RenderedFrame frame = maker->make(number);
         stats.millimetersPerUnit = maker->millimetersPerUnit();
+        stats.irradianceSize = maker->irradianceSize();
         stats.frames.push_back(frame.stats);
         writePicture(options, outputOfFrame(options, number), std::move(frame.image));
         progress.update(static_cast<std::size_t>(number - frames.first + 1));

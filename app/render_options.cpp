@@ -73,10 +73,13 @@ void addPicture(CLI::App& app, RenderOptions& o) {
               {group, "neutral|aces|none", "Tone curve, not in EXR; default neutral"},
               takeChoice(o.toneMap, kToneMaps));
     addOption(app, "--background",
-              {group, "R,G,B|transparent", "Linear color behind the object; default transparent"},
+              {group, "R,G,B|transparent|environment",
+               "Behind the object: a linear color, nothing, or the map of --environment; default "
+               "transparent"},
               [&o](const Argument& a) {
                   o.background.reset();
-                  if (a.text != "transparent") {
+                  o.environmentBehind = a.text == "environment";
+                  if (a.text != "transparent" && !o.environmentBehind) {
                       o.background = glm::vec3(parseVector(a, {0.0, 1e6, false}));
                   }
               });
@@ -277,6 +280,8 @@ void validateRenderOptions(const RenderOptions& o) {
             "choose an output that ends in .exr");
     require(!o.stats || *o.stats != o.output, "--stats", "is the same file as the output",
             "choose another name");
+    require(!o.environmentBehind || o.environment, "--background environment",
+            "there is no environment", "name a map with --environment");
     require(!(o.table && o.epsilon), "--epsilon", "does not go with --table",
             "the table was made for its own");
     validateMotion(o);

@@ -44,7 +44,8 @@ struct RenderOptions {
     int samples = 4; ///< coverage samples a pixel
     double exposureEv = 0.0;
     ToneMap toneMap = ToneMap::Neutral;
-    std::optional<glm::vec3> background; ///< linear; unset: transparent
+    std::optional<glm::vec3> background; ///< linear; unset: transparent, or the environment
+    bool environmentBehind = false;      ///< --background environment
     bool specular = true;
 
     // View and size

@@ -83,6 +83,20 @@ Camera cameraOf(const RenderOptions& options, const World& world) {
                         static_cast<double>(options.size.x) / static_cast<double>(options.size.y));
 }
 
+Environment environmentOf(const RenderOptions& options) {
+    if (!options.environment) {
+        return {};
+    }
+    const auto map = std::make_shared<EnvironmentMap>(readEnvironment(*options.environment));
+    for (const std::string& warning : map->warnings) {
+        log::warning("{}", warning);
+    }
+    Environment environment;
+    environment.map = map;
+    environment.lights = options.environmentLights;
+    return environment;
+}
+
 std::vector<Light> lightsOf(const RenderOptions& options, const World& world,
                             const Camera& camera) {
     std::vector<Light> lights;
@@ -94,14 +108,7 @@ std::vector<Light> lightsOf(const RenderOptions& options, const World& world,
     if (lights.empty()) {
         lights = world.lights;
     }
-    if (options.environment) {
-        const EnvironmentMap map = readEnvironment(*options.environment);
-        for (const std::string& warning : map.warnings) {
-            log::warning("{}", warning);
-        }
-        const std::vector<Light> more = environmentLights(map, options.environmentLights);
-        lights.insert(lights.end(), more.begin(), more.end());
-    } else if (lights.empty()) {
+    if (lights.empty() && !options.environment) {
         lights.push_back(defaultLight(camera));
     }
     return lights;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/render_options.h"
+#include "renderer/scene/environment.h"
 #include "renderer/scene/world.h"
 
 #include <string>
@@ -22,7 +23,10 @@ namespace celadon::app {
 /// Camera in mm for the picture's aspect.
 [[nodiscard]] Camera cameraOf(const RenderOptions& options, const World& world);
 
-/// Lights in mm: those asked for, else the file's, else one that flatters; and the environment's.
+/// The map of --environment; none without it.
+[[nodiscard]] Environment environmentOf(const RenderOptions& options);
+
+/// Lights in mm: those asked for, else the file's, else, without an environment, one that flatters.
 [[nodiscard]] std::vector<Light> lightsOf(const RenderOptions& options, const World& world,
                                           const Camera& camera);
 

@@ -25,9 +25,11 @@ FrameSettings frameSettings(Quality quality) {
         splatting.fade = 0.3;
         break;
     case Quality::Default:
+        splatting.refineShortRanges = true;
         break;
     case Quality::Final:
         splatting.irradianceSize = 1024;
+        splatting.refineShortRanges = true;
         splatting.sampleAngle = 1.4;
         splatting.pixelAngle = 0.16;
         settings.shadowSize = 2048;

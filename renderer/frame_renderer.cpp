@@ -8,6 +8,7 @@
 #include "renderer/splatting/splatting_solver.h"
 
 #include <string>
+#include <utility>
 
 namespace celadon {
 
@@ -66,7 +67,9 @@ GpuScene::GpuScene(const World& theWorld, const FrameSettings& settings)
     : world(theWorld),
       gpuWorld(theWorld),
       materials(theWorld.materials, settings.splatting.energy, settings.splatting.epsilon,
-                settings.exitFresnel, settings.splatting.rangeTable) {}
+                settings.exitFresnel, settings.splatting.rangeTable) {
+    shaders.define(sceneDefines(theWorld));
+}
 
 struct FrameRenderer::Passes {
     Passes(const gl::Context& glContext, std::shared_ptr<const GpuScene> theScene,
@@ -85,6 +88,9 @@ struct FrameRenderer::Passes {
           directLight(shaders, view, theSettings.shadowSize),
           shading(shaders, materials.count(), view),
           antialiasing(shaders, view) {
+        settings.splatting.irradianceSize =
+            refinedIrradianceSize(settings.splatting, double(materials.shortRadiusMm()),
+                                  2.0 * world.scatteringSphere.radius);
         switch (settings.solver) {
         case SolverKind::Splatting:
             settings.splatting.backend = resolveBackend(settings.splatting.backend, glContext);
@@ -118,14 +124,19 @@ struct FrameRenderer::Passes {
     DirectLight directLight;
     ShadingPass shading;
     Antialiasing antialiasing;
+    Environment environment;
+    std::vector<Light> aroundLights;                         ///< that stand for it
+    std::unique_ptr<const EnvironmentReflection> reflection; ///< of environment.map
     CameraView cameraView;
     const gl::Texture* exitance = nullptr;
     const gl::Texture* color = nullptr;
     std::vector<double> shadedKey; ///< what the direct light was shaded for
 };
 
-bool FrameRenderer::Passes::draw(const Camera& camera, std::span<const Light> lights,
+bool FrameRenderer::Passes::draw(const Camera& camera, std::span<const Light> ownLights,
                                  const std::atomic<bool>* interrupt) {
+    std::vector<Light> lights(ownLights.begin(), ownLights.end());
+    lights.insert(lights.end(), aroundLights.begin(), aroundLights.end());
     cameraView = makeCameraView(camera, settings.size.x, settings.size.y, world.sceneSphere);
     materials.bind();
     {
@@ -141,8 +152,9 @@ bool FrameRenderer::Passes::draw(const Camera& camera, std::span<const Light> li
     // While only materials change, as under a brush, highlights stay as they are.
     std::vector<double> key = directLightKey(camera, lights);
     if (key != shadedKey) {
+        const DirectLight::Surroundings around{reflection.get(), environment, ownLights.size()};
         directLight.shade(lights, world.sceneSphere, gpuWorld, view, settings.specular,
-                          settings.shadows);
+                          settings.shadows, reflection ? &around : nullptr);
         shadedKey = std::move(key);
     }
     shading.shade(view, *exitance, directLight.radiance());
@@ -165,6 +177,26 @@ FrameRenderer::FrameRenderer(const gl::Context& context, std::shared_ptr<const G
     : mPasses(std::make_unique<Passes>(context, std::move(scene), settings)) {}
 
 FrameRenderer::~FrameRenderer() = default;
+
+void FrameRenderer::setEnvironment(const Environment& environment) {
+    Passes& passes = *mPasses;
+    if (environment == passes.environment) {
+        return;
+    }
+    const Environment before = std::exchange(passes.environment, environment);
+    passes.aroundLights = environmentLights(environment);
+    if (!environment || !passes.settings.specular) {
+        passes.reflection.reset();
+    } else if (!passes.reflection || before.map != environment.map) {
+        passes.reflection =
+            std::make_unique<EnvironmentReflection>(passes.shaders, *environment.map);
+    }
+    passes.shadedKey.clear();
+}
+
+int FrameRenderer::irradianceSize() const {
+    return mPasses->settings.splatting.irradianceSize;
+}
 
 ExitanceSolver& FrameRenderer::solver() {
     return *mPasses->solver;

@@ -8,6 +8,7 @@
 #include "renderer/output/frame_stats.h"
 #include "renderer/output/image.h"
 #include "renderer/scene/camera.h"
+#include "renderer/scene/environment.h"
 #include "renderer/scene/world.h"
 #include "renderer/splatting/splatting_settings.h"
 
@@ -62,6 +63,11 @@ public:
                   const FrameSettings& settings);
     ~FrameRenderer();
 
+    /// What is around the scene from the next frame on; nothing at first. Highlights see it as it
+    /// is; for what scatters, and for opaque parts, its lights (environmentLights) are added to a
+    /// frame's.
+    void setEnvironment(const Environment& environment);
+
     /// @param camera in mm @param lights positions in mm
     [[nodiscard]] RenderedFrame render(const Camera& camera, std::span<const Light> lights);
 
@@ -74,6 +80,8 @@ public:
                             const std::atomic<bool>* interrupt);
     /// Times of draw()s since the last call. Waits for the GPU.
     [[nodiscard]] StageMilliseconds takeTimes();
+    /// N of the light views, once refined for the scene (SplattingSettings::refineShortRanges).
+    [[nodiscard]] int irradianceSize() const;
     /// The visible surface of the last frame.
     [[nodiscard]] const SplattingBuffer& view() const;
     /// B of the last frame at pixel centers, W/m^2; its mips are B^k accumulated.

@@ -15,7 +15,7 @@ using glm::vec4;
 
 static_assert(sizeof(FrameBlock) == 2 * 64 + 4 * 16);
 static_assert(sizeof(LightBlock) == 2 * 64 + 4 * 16);
-static_assert(sizeof(MaterialEntry) == 2 * 16);
+static_assert(sizeof(MaterialEntry) == 3 * 16);
 static_assert(sizeof(SolveBlock) == 4 * 16);
 
 /// Binding points, as in shaders/include/*.glsl.

@@ -1,9 +1,11 @@
 #include "renderer/gpu_materials.h"
 
 #include "renderer/gpu_blocks.h"
-#include "renderer/material_tables.h"
 #include "renderer/shading/fresnel.h"
 #include "subedit/errors.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +14,12 @@ namespace celadon {
 
 namespace {
 
-/// First texture units of the arrays in material.glsl.
-enum Unit : GLuint { kLogProfiles = 8, kRadii = 12, kKept = 16, kFarEnergy = 20 };
+/// Texture units of material.glsl.
+enum Unit : GLuint { kTables = 8, kFarEnergy = 9 };
 
 constexpr float kLog2TMax = 12.0f;
+constexpr int kBorder = 1;      ///< texels around a map, so that filtering finds its other side
+constexpr int kExtraLayers = 3; ///< beyond the knots: radii, kept energy, specular lobe
 
 /// [height][width][knot][3] of a rectangle -> [knot][height][width][4]
 std::vector<float> knotsAsSlices(const subedit::MaterialMap& map, const subedit::TexelRect& rect) {
@@ -34,17 +38,77 @@ std::vector<float> knotsAsSlices(const subedit::MaterialMap& map, const subedit:
     return slices;
 }
 
-void checkSize(const subedit::MaterialMap& map) {
-    GLint limit2d = 0;
-    GLint limit3d = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit2d);
-    glGetIntegerv(GL_MAX_3D_TEXTURE_SIZE, &limit3d);
-    const int limit = std::min(limit2d, limit3d);
-    if (map.width > limit || map.height > limit) {
-        throw InputError("material '" + map.name + "'",
-                         std::to_string(map.width) + "x" + std::to_string(map.height) +
-                             " texels are more than this driver's " + std::to_string(limit),
-                         "resize it with 'celadon material convert'");
+/// [height][width][4] of a rectangle: roughness and specular, -1 where the map has none.
+std::vector<float> lobeSlice(const subedit::MaterialMap& map, const subedit::TexelRect& rect) {
+    std::vector<float> slice(rect.texels() * 4, -1.0f);
+    std::size_t t = 0;
+    for (int y = rect.y; y < rect.bottom(); ++y) {
+        for (int x = rect.x; x < rect.right(); ++x, t += 4) {
+            const std::size_t texel =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
+                static_cast<std::size_t>(x);
+            slice[t] = map.roughness.empty() ? -1.0f : map.roughness[texel];
+            slice[t + 1] = map.specular.empty() ? -1.0f : map.specular[texel];
+        }
+    }
+    return slice;
+}
+
+MaterialSlots slotsOf(std::span<const MaterialPointer> materials) {
+    std::vector<glm::ivec3> sizes;
+    for (const MaterialPointer& map : materials) {
+        sizes.emplace_back(map->width + 2 * kBorder, map->height + 2 * kBorder,
+                           map->knots() + kExtraLayers);
+    }
+    return arrangeMaterials(sizes);
+}
+
+void checkSize(std::span<const MaterialPointer> materials, const glm::ivec3& extent) {
+    GLint side = 0;
+    GLint layers = 0;
+    GLint blockBytes = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
+    glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
+    glGetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &blockBytes);
+    const std::size_t entries =
+        static_cast<std::size_t>(blockBytes) / sizeof(blocks::MaterialEntry);
+    if (materials.size() > entries) {
+        throw InputError("the scene",
+                         fmt::format("{} SubEdit materials are more than the {} that this driver's "
+                                     "uniform blocks hold",
+                                     materials.size(), entries),
+                         "let meshes share a material, as one map over their common atlas");
+    }
+    if (extent.x > side || extent.y > side || extent.z > layers) {
+        throw InputError(
+            materials.size() == 1 ? "material '" + materials[0]->name + "'"
+                                  : fmt::format("the scene's {} materials", materials.size()),
+            fmt::format("{}x{} texels of {} layers are more than this driver's {}x{}x{}", extent.x,
+                        extent.y, extent.z, side, side, layers),
+            "make them smaller with 'celadon material convert'");
+    }
+}
+
+/// Copies what lies at the map's rim to the border on the other side.
+/// @param corner of the map's texel (0, 0) in the array
+void repeatAtBorder(const gl::Texture& texture, const glm::ivec3& corner, glm::ivec2 size,
+                    int layers, const subedit::TexelRect& rect) {
+    for (int v = -1; v <= 1; ++v) {
+        for (int u = -1; u <= 1; ++u) {
+            const glm::ivec2 shift = glm::ivec2(u, v) * size;
+            const glm::ivec2 low =
+                glm::max(glm::ivec2(rect.x, rect.y) + shift, glm::ivec2(-kBorder));
+            const glm::ivec2 high =
+                glm::min(glm::ivec2(rect.right(), rect.bottom()) + shift, size + kBorder);
+            if ((u == 0 && v == 0) || low.x >= high.x || low.y >= high.y) {
+                continue;
+            }
+            const glm::ivec3 to = corner + glm::ivec3(low, 0);
+            const glm::ivec3 from = to - glm::ivec3(shift, 0);
+            glCopyImageSubData(texture.id(), texture.target(), 0, from.x, from.y, from.z,
+                               texture.id(), texture.target(), 0, to.x, to.y, to.z, high.x - low.x,
+                               high.y - low.y, layers);
+        }
     }
 }
 
@@ -53,50 +117,41 @@ void checkSize(const subedit::MaterialMap& map) {
 GpuMaterials::GpuMaterials(std::span<const MaterialPointer> materials, double energy,
                            double epsilon, ExitFresnel exitFresnel,
                            std::span<const float> rangeTable)
-    : mMapSampler("material map", gl::Filter::Linear, gl::Wrap::Repeat),
+    : mSlots(slotsOf(materials)),
+      mMapSampler("material map", gl::Filter::Linear),
       mTableSampler("range table", gl::Filter::Linear),
       mEnergy(energy) {
-    if (materials.size() > static_cast<std::size_t>(kMaxMaterials)) {
-        throw InputError("the scene",
-                         std::to_string(materials.size()) +
-                             " SubEdit materials are more than the " +
-                             std::to_string(kMaxMaterials) + " that one scene can have",
-                         "let meshes share a material, as one map over their common atlas");
-    }
+    checkSize(materials, mSlots.extent);
+    mTables =
+        gl::Texture::makeArray("materials", GL_RGBA32F, glm::ivec2(mSlots.extent), mSlots.extent.z);
+    mFarEnergy = gl::Texture::makeArray("far energy of materials", GL_RGBA16F,
+                                        glm::ivec2(mSlots.extent), mSlots.extent.z);
+    const glm::vec2 texel = 1.0f / glm::vec2(mSlots.extent);
     std::vector<blocks::MaterialEntry> entries;
     std::vector<float> tables;
     for (const MaterialPointer& material : materials) {
         const subedit::MaterialMap& map = *material;
-        checkSize(map);
         MaterialTables made = makeMaterialTables(map, energy, epsilon);
         if (!rangeTable.empty()) {
             made.rangeTable.assign(rangeTable.begin(), rangeTable.end());
         }
-        const glm::ivec2 size(map.width, map.height);
-        const glm::ivec3 boxSize(size, map.knots());
-        gl::Texture logProfile = gl::Texture::make3d("ln P of " + map.name, GL_RGBA32F, boxSize);
-        logProfile.upload(0, knotsAsSlices(map, {0, 0, map.width, map.height}));
-        gl::Texture radii = gl::Texture::make2d("radii of " + map.name, GL_RGBA32F, size);
-        radii.upload(0, made.texels.radii);
-        gl::Texture kept = gl::Texture::make2d("kept energy of " + map.name, GL_RGBA32F, size);
-        kept.upload(0, made.texels.kept);
-        gl::Texture far = gl::Texture::make3d("far energy of " + map.name, GL_RGBA16F, boxSize);
-        far.upload(0, made.texels.logFarEnergy);
-        mMeanLogProfiles.push_back(made.meanLogProfile);
-        mLogProfiles.push_back(std::move(logProfile));
-        mRadii.push_back(std::move(radii));
-        mKept.push_back(std::move(kept));
-        mFarEnergy.push_back(std::move(far));
+        const std::size_t index = entries.size();
+        upload(static_cast<int>(index), map, {0, 0, map.width, map.height}, made.texels);
+        mMeanLogProfiles.push_back(std::move(made.meanLogProfile));
 
         const double c = exitFresnel == ExitFresnel::Exact
                              ? diffuseTransmittance(static_cast<double>(map.eta))
                              : 1.0;
         blocks::MaterialEntry entry;
         entry.profile = glm::vec4(map.maxRadiusMm, float(map.segments), map.eta, float(1.0 / c));
-        entry.look = glm::vec4(0.0f);
+        const glm::ivec3& origin = mSlots.origins[index];
+        entry.place = glm::vec4((glm::vec2(origin) + float(kBorder)) * texel,
+                                glm::vec2(map.width, map.height) * texel);
+        entry.layers = glm::vec4(float(origin.z), 0.0f, 0.0f, 0.0f);
         entries.push_back(entry);
         mTableSize = made.rangeTable.size();
         tables.insert(tables.end(), made.rangeTable.begin(), made.rangeTable.end());
+        mShortRadiusMm = std::min(mShortRadiusMm, made.shortRadiusMm);
         mMeanRadiusMm += made.meanRadiusMm / static_cast<float>(materials.size());
     }
     mRangeTable = gl::Texture::make2d(
@@ -109,32 +164,37 @@ GpuMaterials::GpuMaterials(std::span<const MaterialPointer> materials, double en
     mHomogeneous = materials.size() == 1 && materials[0]->isHomogeneous();
 }
 
+void GpuMaterials::upload(int material, const subedit::MaterialMap& map,
+                          const subedit::TexelRect& rect, const TexelTables& tables) {
+    const glm::ivec3 corner =
+        mSlots.origins[static_cast<std::size_t>(material)] + glm::ivec3(kBorder, kBorder, 0);
+    const glm::ivec3 offset = corner + glm::ivec3(rect.x, rect.y, 0);
+    const glm::ivec2 size(rect.width, rect.height);
+    const int knots = map.knots();
+    mTables.uploadRegion(0, offset, glm::ivec3(size, knots), knotsAsSlices(map, rect));
+    mTables.uploadRegion(0, offset + glm::ivec3(0, 0, knots), glm::ivec3(size, 1), tables.radii);
+    mTables.uploadRegion(0, offset + glm::ivec3(0, 0, knots + 1), glm::ivec3(size, 1), tables.kept);
+    mTables.uploadRegion(0, offset + glm::ivec3(0, 0, knots + 2), glm::ivec3(size, 1),
+                         lobeSlice(map, rect));
+    mFarEnergy.uploadRegion(0, offset, glm::ivec3(size, knots), tables.logFarEnergy);
+    const glm::ivec2 mapSize(map.width, map.height);
+    repeatAtBorder(mTables, corner, mapSize, knots + kExtraLayers, rect);
+    repeatAtBorder(mFarEnergy, corner, mapSize, knots, rect);
+}
+
 void GpuMaterials::update(int material, const subedit::MaterialMap& map,
                           const subedit::TexelRect& rect) {
-    const auto index = static_cast<std::size_t>(material);
-    const glm::ivec3 offset(rect.x, rect.y, 0);
-    const glm::ivec3 extent(rect.width, rect.height, 1);
-    const glm::ivec3 box(rect.width, rect.height, map.knots());
-    const TexelTables made = makeTexelTables(map, rect, mEnergy, mMeanLogProfiles[index]);
-    mLogProfiles[index].uploadRegion(0, offset, box, knotsAsSlices(map, rect));
-    mRadii[index].uploadRegion(0, offset, extent, made.radii);
-    mKept[index].uploadRegion(0, offset, extent, made.kept);
-    mFarEnergy[index].uploadRegion(0, offset, box, made.logFarEnergy);
+    upload(
+        material, map, rect,
+        makeTexelTables(map, rect, mEnergy, mMeanLogProfiles[static_cast<std::size_t>(material)]));
 }
 
 void GpuMaterials::bind() const {
     mBlock.bindUniform(blocks::kMaterials);
-    const auto bindAll = [&](const std::vector<gl::Texture>& textures, GLuint unit) {
-        for (const gl::Texture& texture : textures) {
-            texture.bind(unit);
-            mMapSampler.bind(unit);
-            ++unit;
-        }
-    };
-    bindAll(mLogProfiles, kLogProfiles);
-    bindAll(mRadii, kRadii);
-    bindAll(mKept, kKept);
-    bindAll(mFarEnergy, kFarEnergy);
+    mTables.bind(kTables);
+    mFarEnergy.bind(kFarEnergy);
+    mMapSampler.bind(kTables);
+    mMapSampler.bind(kFarEnergy);
 }
 
 void GpuMaterials::bindRangeTable(GLuint unit) const {

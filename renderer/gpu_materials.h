@@ -4,23 +4,25 @@
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/sampler.h"
 #include "renderer/gl/texture.h"
+#include "renderer/material_slots.h"
+#include "renderer/material_tables.h"
 #include "renderer/scene/world.h"
 #include "renderer/shading/fresnel.h"
 #include "subedit/map/texel_rect.h"
 
+#include <limits>
 #include <span>
 #include <vector>
 
-/// The scene's SubEdit materials on the GPU (shaders/include/material.glsl).
+/// The scene's SubEdit materials on the GPU (shaders/include/material.glsl): all of them in one
+/// array texture, each with a border of one texel that repeats its other side.
 namespace celadon {
-
-inline constexpr int kMaxMaterials = 4; ///< as material.glsl unrolls
 
 class GpuMaterials {
 public:
     /// @param energy, epsilon as makeMaterialTables
     /// @param rangeTable instead of the materials' own, unless empty
-    /// @throws InputError for more than kMaxMaterials, or a map beyond the driver's texture sizes
+    /// @throws InputError when they are too many or too large for the driver
     GpuMaterials(std::span<const MaterialPointer> materials, double energy, double epsilon,
                  ExitFresnel exitFresnel, std::span<const float> rangeTable = {});
 
@@ -33,18 +35,25 @@ public:
     void bind() const;
     void bindRangeTable(GLuint unit) const;
 
-    [[nodiscard]] int count() const { return static_cast<int>(mLogProfiles.size()); }
+    [[nodiscard]] int count() const { return static_cast<int>(mMeanLogProfiles.size()); }
     /// One material of one texel: profiles need no map.
     [[nodiscard]] bool isHomogeneous() const { return mHomogeneous; }
     [[nodiscard]] float meanRadiusMm() const { return mMeanRadiusMm; }
+    /// R_P that a quarter of the texels fall below, of the material where it is shortest; as made.
+    [[nodiscard]] float shortRadiusMm() const { return mShortRadiusMm; }
     /// Knots that node profiles share.
     [[nodiscard]] const gather::Knots& commonKnots() const { return mCommonKnots; }
     /// Rbar(T) (eq. 14).
     [[nodiscard]] float minimalRadius(float pixelsPerRadius, int material = 0) const;
 
 private:
+    void upload(int material, const subedit::MaterialMap& map, const subedit::TexelRect& rect,
+                const TexelTables& tables);
+
     gl::Buffer mBlock;
-    std::vector<gl::Texture> mLogProfiles, mRadii, mKept, mFarEnergy;
+    MaterialSlots mSlots;
+    gl::Texture mTables; ///< [layer][row][column][4]: ln P of the knots, radii, kept energy, lobe
+    gl::Texture mFarEnergy; ///< the same places
     gl::Texture mRangeTable;
     gl::Sampler mMapSampler, mTableSampler;
     std::vector<float> mRangeTables; ///< one row a material
@@ -53,6 +62,7 @@ private:
     double mEnergy = 1.0;
     bool mHomogeneous = false;
     float mMeanRadiusMm = 0.0f;
+    float mShortRadiusMm = std::numeric_limits<float>::max();
     gather::Knots mCommonKnots;
 };
 

@@ -20,7 +20,8 @@ public:
     explicit GpuWorld(const World& world);
 
     /// Draws every mesh with the given program (surface.vert; DESIGN 3.1, 3.3). Sets the uniforms
-    /// of include/surface.glsl, and with `looks` those of splatting_buffer.frag as well.
+    /// of include/surface.glsl, and with `looks` those of splatting_buffer.frag as well. Cut-outs
+    /// are cut in any case, where the program has the scene's defines.
     void draw(const gl::Program& program, bool looks) const;
 
     /// The buffers of one mesh, in the order of World::meshes, for what moves them
@@ -37,6 +38,8 @@ public:
     }
 
 private:
+    static constexpr int kLookTextures = 4; ///< base color, metallic-roughness, normal, emission
+
     struct LookTexture {
         int image = -1;
         gl::Sampler sampler;
@@ -47,11 +50,13 @@ private:
         glm::vec4 baseColor;
         glm::vec4 lobe; ///< metallic, roughness, index of refraction or 0, normal scale
         glm::vec3 emission;
+        float alphaCutoff; ///< -1: none
         bool doubleSided;
-        LookTexture textures[3]; ///< base color, metallic-roughness, normal
+        LookTexture textures[kLookTextures];
     };
     struct GpuMesh {
         gl::Buffer vertices;
+        gl::Buffer colors; ///< RGBA a vertex, or empty
         gl::Buffer indices;
         gl::VertexArray vertexArray;
         int indexCount = 0;
@@ -59,6 +64,8 @@ private:
         int scattering = -1;
     };
 
+    /// @param textures how many of the look's textures the program reads, from the first on
+    void setLook(const gl::Program& program, const Look& look, int textures) const;
     void addLook(const World& world, const SurfaceMaterial& material);
     void addMesh(const WorldMesh& mesh);
     int addImage(const World& world, int image, bool srgb);
@@ -70,5 +77,10 @@ private:
     std::vector<std::pair<int, bool>>
         mImageKeys; ///< (index in World::images, sRGB) of each of mImages
 };
+
+/// What the shaders of a scene are compiled with besides each pass's own: CUT_OUT where some
+/// surface is cut out by its alpha, VERTEX_COLORS where some mesh has them. Others do not pay for
+/// it.
+[[nodiscard]] std::vector<gl::ShaderDefine> sceneDefines(const World& world);
 
 } // namespace celadon

@@ -117,9 +117,12 @@ MaterialTables makeMaterialTables(const MaterialMap& map, double energy, double 
         sum += static_cast<double>(tables.texels.radii[4 * t]);
     }
     tables.meanRadiusMm = static_cast<float>(sum / static_cast<double>(texels));
-    const std::vector<float> radii = subedit::effectiveRadiusMap(map);
+    std::vector<float> radii = subedit::effectiveRadiusMap(map);
     const auto table = subedit::RangeTable::build(subedit::meanProfile(map, radii), epsilon);
     tables.rangeTable.assign(table.values().begin(), table.values().end());
+    const auto quarter = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 4);
+    std::nth_element(radii.begin(), quarter, radii.end());
+    tables.shortRadiusMm = *quarter;
     return tables;
 }
 

@@ -27,7 +27,8 @@ struct MaterialTables {
     std::vector<double> meanLogProfile;
     /// Rbar over log2 T in [0, 12], equally spaced (DESIGN 3.3, eq. 14).
     std::vector<float> rangeTable;
-    float meanRadiusMm = 0.0f; ///< mean R_P over the texels
+    float meanRadiusMm = 0.0f;  ///< mean R_P over the texels
+    float shortRadiusMm = 0.0f; ///< R_P that a quarter of the texels fall below
 };
 
 /// @param energy  fraction that R_cut holds; 1: R_cut = r_s, everything is kept

@@ -3,18 +3,15 @@
 #include "include/frame.glsl"
 #include "include/light.glsl"
 #include "include/ggx.glsl"
+#include "include/look.glsl"
 
-layout(location = 0) uniform int specular; // 0: none
+layout(location = 0) uniform int specular;    // 0: none
+layout(location = 1) uniform int environment; // 1: a part of the map that environment_reflection.frag adds whole
 
-layout(binding = 0) uniform sampler2D positions;
-layout(binding = 1) uniform sampler2D normals;
-layout(binding = 2) uniform sampler2D surfaces;
-layout(binding = 3) uniform sampler2D lobes;
-layout(binding = 4) uniform sampler2D bases;
-layout(binding = 5) uniform sampler2D emissions;
 layout(binding = 6) uniform sampler2D shadowMap; // reversed depth, 0 background
 
 layout(location = 0) out vec4 radiance;
+layout(location = 1) out vec2 reached_; // of what the light adds to a broad lobe: the part that is not shadowed, all
 
 // Part of a 3x3 neighborhood of the shadow map that the light reaches, bilinear between texels. The
 // point is moved off its surface by what a texel spans there, so that it does not shadow itself.
@@ -59,21 +56,14 @@ void main() {
         discard;
     }
     float reached = visibility(position.xyz, n, toLight);
-    if (reached <= 0.0) {
-        discard;
-    }
-    bool opaque = texelFetch(surfaces, pixel, 0).z < 0.0;
-    vec4 lobe = texelFetch(lobes, pixel, 0);
-    vec4 base = texelFetch(bases, pixel, 0);
-    float ior = texelFetch(emissions, pixel, 0).w;
-    float dielectric = (ior - 1.0) / (ior + 1.0);
-    vec3 f0 = vec3(dielectric * dielectric);
-    vec3 diffuse = vec3(0.0);
-    if (opaque) {
-        f0 = mix(f0, base.rgb, base.a);
-        diffuse = base.rgb * (1.0 - base.a) * (1.0 - dielectric * dielectric) / 3.14159265 * cosine;
-    }
+    Look look = lookAt(pixel);
     vec3 v = directionToEye(position.xyz);
-    vec3 lobeValue = specular != 0 ? ggxLobe(lobe.xyz, v, toLight, lobe.w, f0) : vec3(0.0);
-    radiance = vec4((diffuse + lobeValue) * H * reached, 0.0);
+    vec3 value = look.diffuse / 3.14159265 * cosine;
+    if (specular != 0 && environment == 0) {
+        value += look.weight * ggxLobe(look.normal, v, toLight, look.roughness, look.f0);
+    }
+    radiance = vec4(value * H * reached, 0.0);
+    // Broad, so that some light is in it: how much of the environment a highlight sees changes slowly.
+    float broad = ggxLobe(look.normal, v, toLight, max(look.roughness, 0.5), vec3(1.0)).r * (H.r + H.g + H.b);
+    reached_ = vec2(reached, 1.0) * broad;
 }

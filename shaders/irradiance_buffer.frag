@@ -16,6 +16,7 @@ layout(location = 5) out vec4 outExtent;     // yz, zz, R_P, R_cut
 layout(location = 6) out vec4 outKept;       // energy kept inside R_cut per channel, shortest R_P
 
 void main() {
+    cutOut();
     bool flip = !gl_FrontFacing && meshInfo.y != 0;
     vec3 n = facingNormal(flip);
     vec3 toLight = directionToLight(surface.position);

@@ -9,23 +9,15 @@ layout(location = 1) out vec4 outNormal;   // xyz towards the viewer, mesh id + 
 #ifndef COVERAGE
 layout(location = 2) out vec4 outSurface;  // u, v, material (-1: opaque), R_P in mm
 layout(location = 3) out vec4 outLobe;     // normal of the specular lobe, roughness
-layout(location = 4) out vec4 outBase;     // base color (linear), metallic
+layout(location = 4) out vec4 outBase;     // base color (linear), metallic; scattering: a weighs the lobe
 layout(location = 5) out vec4 outEmission; // emitted radiance, index of refraction of the lobe
 
-layout(location = 1) uniform vec4 baseColor;
 layout(location = 2) uniform vec4 lobe; // metallic, roughness, index of refraction or 0, normal scale
 layout(location = 3) uniform vec3 emission;
-layout(location = 4) uniform ivec4 textureSets; // uv set of base, metallic-roughness, normal: -1 none
-layout(location = 5) uniform mat3 textureTransforms[3];
 
-layout(binding = 0) uniform sampler2D baseColorTexture; // sRGB
 layout(binding = 1) uniform sampler2D metallicRoughnessTexture;
 layout(binding = 2) uniform sampler2D normalTexture;
-
-vec2 textureCoordinate(int index) {
-    vec2 uv = textureSets[index] == 1 ? surface.uv1 : surface.uv;
-    return (textureTransforms[index] * vec3(uv, 1.0)).xy;
-}
+layout(binding = 3) uniform sampler2D emissionTexture; // sRGB
 
 // Tangent frame from the derivatives of position and texture coordinate.
 vec3 mappedNormal(vec3 n) {
@@ -54,6 +46,7 @@ vec3 mappedNormal(vec3 n) {
 #endif
 
 void main() {
+    cutOut();
     // Both sides are seen: a back face shows the normal that faces the viewer.
     vec3 n = facingNormal(!gl_FrontFacing);
     outPosition = vec4(surface.position, -(frame.view * vec4(surface.position, 1.0)).z);
@@ -67,13 +60,17 @@ void main() {
         vec4 texel = texture(metallicRoughnessTexture, textureCoordinate(1));
         metallicRoughness *= texel.bg;
     }
-    vec4 base = baseColor;
-    if (textureSets.x >= 0) {
-        base *= texture(baseColorTexture, textureCoordinate(0));
+    vec3 emitted = emission;
+    if (textureSets.w >= 0) {
+        emitted *= texture(emissionTexture, textureCoordinate(3)).rgb;
+    }
+    if (m >= 0) {
+        vec2 painted = materialLobe(m, surface.uv); // over what the model says
+        metallicRoughness = vec2(painted.y >= 0.0 ? painted.y : 1.0, painted.x >= 0.0 ? painted.x : metallicRoughness.y);
     }
     float ior = lobe.z > 0.0 ? lobe.z : (m >= 0 ? materials[max(m, 0)].profile.z : 1.5);
     outLobe = vec4(specularNormal, metallicRoughness.y);
-    outBase = vec4(base.rgb, metallicRoughness.x);
-    outEmission = vec4(emission, ior);
+    outBase = vec4(surfaceColor().rgb, metallicRoughness.x);
+    outEmission = vec4(emitted, ior);
 #endif
 }

@@ -38,17 +38,15 @@ std::vector<Light> LightRig::resolved() const {
             result.push_back(item.light);
         }
     }
-    if (environment && environment->map && environment->strength > 0.0) {
-        const double turn = glm::radians(environment->turnDegrees);
-        for (Light light : environmentLights(*environment->map, environment->lights)) {
-            const glm::dvec3 d = light.direction;
-            light.direction = {d.x * std::cos(turn) + d.z * std::sin(turn), d.y,
-                               d.z * std::cos(turn) - d.x * std::sin(turn)};
-            light.color *= environment->strength;
-            result.push_back(light);
-        }
-    }
     return result;
+}
+
+Environment LightRig::around() const {
+    if (!environment) {
+        return {};
+    }
+    return {environment->map, environment->strength, glm::radians(environment->turnDegrees),
+            environment->lights};
 }
 
 std::vector<std::string> lightPresetNames() {

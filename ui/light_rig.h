@@ -33,8 +33,10 @@ struct LightRig {
     std::vector<RigLight> lights;
     std::optional<RigEnvironment> environment;
 
-    /// Those that are on, and the environment's, as solvers take them.
+    /// Those that are on, as solvers take them.
     [[nodiscard]] std::vector<Light> resolved() const;
+    /// The environment as a renderer takes it.
+    [[nodiscard]] Environment around() const;
 };
 
 [[nodiscard]] std::vector<std::string> lightPresetNames();

@@ -270,6 +270,7 @@ void PictureWorker::serve(Renderers& renderers, const PictureRequest& request) {
     Picture picture;
     FrameRenderer& renderer = renderers.rendererFor(request, picture.isFirst);
     const auto begin = std::chrono::steady_clock::now();
+    renderer.setEnvironment(request.environment);
     const gl::Texture* radiance = renderer.draw(request.camera, request.lights, &mInterrupt);
     picture.stages = renderer.takeTimes();
     if (radiance == nullptr) {

@@ -35,6 +35,7 @@ struct PictureRequest {
     Rung rung;
     Camera camera; ///< mm
     std::vector<Light> lights;
+    Environment environment;
     bool specular = true;
     WindowDisplay display;
     ViewModeSettings view;

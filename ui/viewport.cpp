@@ -112,6 +112,7 @@ void Viewport::ask(Session& session, int rung) {
     request.rung = mLadder.rungs()[static_cast<std::size_t>(rung)];
     request.camera = session.camera;
     request.lights = session.rig.resolved();
+    request.environment = session.rig.around();
     request.specular = session.view.specular;
     request.display = windowDisplay(session.view);
     request.view = session.view.mode;

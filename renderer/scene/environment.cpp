@@ -232,4 +232,45 @@ std::vector<Light> environmentLights(const EnvironmentMap& map, int count) {
     return lights;
 }
 
+glm::dvec3 turnedBack(const glm::dvec3& direction, double turnRadians) {
+    const double c = std::cos(turnRadians);
+    const double s = std::sin(turnRadians);
+    return {direction.x * c - direction.z * s, direction.y, direction.z * c + direction.x * s};
+}
+
+std::vector<Light> environmentLights(const Environment& environment) {
+    if (!environment) {
+        return {};
+    }
+    std::vector<Light> lights = environmentLights(*environment.map, environment.lights);
+    for (Light& light : lights) {
+        light.direction = turnedBack(light.direction, -environment.turnRadians);
+        light.color *= environment.strength;
+    }
+    return lights;
+}
+
+EnvironmentMap halved(const EnvironmentMap& map) {
+    const Panorama panorama(map);
+    EnvironmentMap half;
+    half.width = (map.width + 1) / 2;
+    half.height = (map.height + 1) / 2;
+    half.radiance.reserve(static_cast<std::size_t>(half.width) *
+                          static_cast<std::size_t>(half.height));
+    for (int y = 0; y < half.height; ++y) {
+        for (int x = 0; x < half.width; ++x) {
+            glm::dvec3 sum(0.0);
+            double weight = 0.0;
+            for (int v = 2 * y; v < std::min(2 * y + 2, map.height); ++v) {
+                for (int u = 2 * x; u < std::min(2 * x + 2, map.width); ++u) {
+                    sum += glm::dvec3(panorama.radiance(u, v)) * panorama.solidAngle(v);
+                    weight += panorama.solidAngle(v);
+                }
+            }
+            half.radiance.emplace_back(sum / weight);
+        }
+    }
+    return half;
+}
+
 } // namespace celadon

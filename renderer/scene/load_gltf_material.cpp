@@ -66,7 +66,9 @@ private:
             result.ior = static_cast<float>(numberOf(ior->second, "ior", 1.5));
         }
         readSubEdit(source, result);
-        if (source.alphaMode != "OPAQUE") {
+        if (source.alphaMode == "MASK") {
+            result.alphaCutoff = static_cast<float>(std::max(source.alphaCutoff, 0.0));
+        } else if (source.alphaMode != "OPAQUE") {
             warn(fmt::format("its alpha mode {} is ignored, it is opaque",
                              excerpt(source.alphaMode)));
         }
@@ -89,9 +91,10 @@ private:
                 std::max(source.emissiveFactor[static_cast<std::size_t>(k)], 0.0) * strength);
         }
         if (source.emissiveTexture.index >= 0 && result.emission != glm::vec3(0.0f)) {
-            // The factor alone would make all of it glow.
-            result.emission = glm::vec3(0.0f);
-            warn("its emissive texture is ignored, it does not emit");
+            result.emissiveTexture = reference(source.emissiveTexture);
+            if (!result.emissiveTexture.isSet()) { // the factor alone would make all of it glow
+                result.emission = glm::vec3(0.0f);
+            }
         }
     }
 

@@ -68,6 +68,7 @@ public:
         }
         readUvs("TEXCOORD_0", mMesh.uvs);
         readUvs("TEXCOORD_1", mMesh.uvs1);
+        readColors();
         readMorphTargets();
         bindToNode();
         const std::vector<Triangle> triangles = readTriangles();
@@ -128,6 +129,27 @@ private:
                 throw InputError(accessorPlace(mDocument, *accessor),
                                  fmt::format("{} of vertex {} is not finite", name, i),
                                  "repair the mesh where it was made");
+            }
+        }
+    }
+
+    /// glTF 2.0, 3.7.2.1: COLOR_0 multiplies the base color; it has no alpha, or one.
+    void readColors() {
+        const auto accessor = attribute(mPrimitive.attributes, "COLOR_0");
+        if (!accessor) {
+            return;
+        }
+        if (mDocument.model.accessors[static_cast<std::size_t>(*accessor)].type ==
+            TINYGLTF_TYPE_VEC4) {
+            mMesh.colors = readVec4(mDocument, *accessor);
+        } else {
+            for (const glm::vec3& color : readVec3(mDocument, *accessor)) {
+                mMesh.colors.emplace_back(color, 1.0f);
+            }
+        }
+        for (glm::vec4& color : mMesh.colors) {
+            for (int k = 0; k < 4; ++k) { // NaN becomes 0
+                color[k] = color[k] > 0.0f ? std::min(color[k], 1.0f) : 0.0f;
             }
         }
     }
@@ -404,6 +426,7 @@ private:
         pick(mMesh.normals);
         pick(mMesh.uvs);
         pick(mMesh.uvs1);
+        pick(mMesh.colors);
         pick(mMesh.bindingVertices);
     }
 };

@@ -53,6 +53,9 @@ struct SurfaceMaterial {
     TextureReference metallicRoughnessTexture; ///< G roughness, B metallic
     TextureReference normalTexture;
     float normalScale = 1.0f;
+    TextureReference emissiveTexture; ///< sRGB, multiplies `emission`
+    /// Set: surface whose alpha (base color's) is below it is not there. Unset: alpha is ignored.
+    std::optional<float> alphaCutoff;
     std::optional<std::filesystem::path>
         subedit; ///< the SubEdit file that the glTF names, resolved
 };
@@ -60,12 +63,13 @@ struct SurfaceMaterial {
 /// Triangles with one look. Counter-clockwise is the front.
 struct Mesh {
     std::string name;
-    std::vector<glm::vec3> positions;   ///< model units
-    std::vector<glm::vec3> normals;     ///< unit length, one per position (computed where missing)
-    std::vector<glm::vec2> uvs;         ///< (0,0) top left, v down; one per position, or empty
-    std::vector<glm::vec2> uvs1;        ///< second set, or empty
-    std::vector<std::uint32_t> indices; ///< three a triangle, all < positions.size()
-    int material = 0;                   ///< index into Scene::materials
+    std::vector<glm::vec3> positions; ///< model units
+    std::vector<glm::vec3> normals;   ///< unit length, one per position (computed where missing)
+    std::vector<glm::vec2> uvs;       ///< (0,0) top left, v down; one per position, or empty
+    std::vector<glm::vec2> uvs1;      ///< second set, or empty
+    std::vector<glm::vec4> colors; ///< linear, multiply the base color; one per position, or empty
+    std::vector<std::uint32_t> indices;         ///< three a triangle, all < positions.size()
+    int material = 0;                           ///< index into Scene::materials
     std::shared_ptr<const MeshBinding> binding; ///< what moves it; null: nothing does
     std::vector<std::uint32_t> bindingVertices; ///< with a binding: its vertex of each position
     [[nodiscard]] std::size_t triangleCount() const { return indices.size() / 3; }

@@ -3,6 +3,8 @@
 #include "renderer/gl/debug.h"
 #include "renderer/gl/pass_state.h"
 
+#include <cmath>
+
 namespace celadon {
 
 DirectLight::DirectLight(const gl::ShaderLibrary& shaders, const SplattingBuffer& view,
@@ -11,20 +13,39 @@ DirectLight::DirectLight(const gl::ShaderLibrary& shaders, const SplattingBuffer
       mShadowMap(gl::Texture::make2d("shadow map", GL_DEPTH_COMPONENT32F, glm::ivec2(shadowSize))),
       mShadowFramebuffer("shadow map", {}, gl::Attachment{&mShadowMap}),
       mRadiance(gl::Texture::make2d("direct radiance", GL_RGBA32F, view.size())),
+      mReach(gl::Texture::make2d("reach of the environment", GL_RG32F, view.size())),
       mFramebuffer("direct radiance", {{&mRadiance}}),
+      mReachFramebuffer("direct radiance and reach", {{&mRadiance}, {&mReach}}),
       mLightBlock("shadow light", sizeof(blocks::LightBlock), gl::BufferUse::Update),
       mNoAttributes("no attributes"),
       mShadow("shadow map", shaders, {"surface.vert", "shadow_map.frag"}),
-      mShade("direct light", shaders, {"fullscreen.vert", "direct_light.frag"}) {}
+      mShade("direct light", shaders, {"fullscreen.vert", "direct_light.frag"}),
+      mReflect("environment reflection", shaders,
+               {"fullscreen.vert", "environment_reflection.frag"}) {}
+
+namespace {
+
+void bindLooks(const SplattingBuffer& view) {
+    view.positions().bind(0);
+    view.normals().bind(1);
+    view.surfaces().bind(2);
+    view.lobes().bind(3);
+    view.bases().bind(4);
+    view.emissions().bind(5);
+}
+
+} // namespace
 
 void DirectLight::shade(std::span<const Light> lights, const BoundingSphere& sceneSphere,
                         const GpuWorld& world, const SplattingBuffer& view, bool specular,
-                        bool shadows) {
+                        bool shadows, const Surroundings* around) {
     const gl::DebugGroup group("direct light");
     mRadiance.clear(0, glm::vec4(0.0f));
-    for (const Light& light : lights) {
+    mReach.clear(0, glm::vec4(0.0f));
+    const std::size_t firstAround = around != nullptr ? around->firstLight : lights.size();
+    for (std::size_t i = 0; i < lights.size(); ++i) {
         for (const LightView& lightView :
-             makeLightViews(light, sceneSphere, sceneSphere, mShadowSize)) {
+             makeLightViews(lights[i], sceneSphere, sceneSphere, mShadowSize)) {
             mLightBlock.write(std::span(&lightView.block, 1));
             mLightBlock.bindUniform(blocks::kLight);
 
@@ -37,24 +58,44 @@ void DirectLight::shade(std::span<const Light> lights, const BoundingSphere& sce
             if (shadows) {
                 world.draw(mShadow, false);
             }
-
-            gl::PassState state = gl::PassState::covering(mFramebuffer);
-            state.blend = gl::Blend::Additive;
-            state.apply();
-            mShade.use();
-            mShade.set(0, specular);
-            view.positions().bind(0);
-            view.normals().bind(1);
-            view.surfaces().bind(2);
-            view.lobes().bind(3);
-            view.bases().bind(4);
-            view.emissions().bind(5);
-            mShadowMap.bind(6);
-            mNoAttributes.bind();
-            glDrawArrays(GL_TRIANGLES, 0, 3);
+            shadeFrom(view, specular, i >= firstAround);
         }
     }
+    if (around != nullptr) {
+        reflect(view, *around);
+    }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void DirectLight::shadeFrom(const SplattingBuffer& view, bool specular, bool isPartOfReflection) {
+    gl::PassState state =
+        gl::PassState::covering(isPartOfReflection ? mReachFramebuffer : mFramebuffer);
+    state.blend = gl::Blend::Additive;
+    state.apply();
+    mShade.use();
+    mShade.set(0, specular);
+    mShade.set(1, isPartOfReflection);
+    bindLooks(view);
+    mShadowMap.bind(6);
+    mNoAttributes.bind();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void DirectLight::reflect(const SplattingBuffer& view, const Surroundings& around) {
+    constexpr GLuint kReachUnit = 6, kReflectionUnit = 10;
+    gl::PassState state = gl::PassState::covering(mFramebuffer);
+    state.blend = gl::Blend::Additive;
+    state.apply();
+    mReflect.use();
+    const double turn = around.environment.turnRadians;
+    mReflect.set(0, glm::vec4(std::cos(turn), std::sin(turn), around.environment.strength, 0.0));
+    bindLooks(view);
+    mReach.bind(kReachUnit);
+    around.reflection->bind(kReflectionUnit);
+    mNoAttributes.bind();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    gl::Sampler::unbind(kReflectionUnit);
+    gl::Sampler::unbind(kReflectionUnit + 1);
 }
 
 } // namespace celadon

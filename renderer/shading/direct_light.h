@@ -5,9 +5,11 @@
 #include "renderer/gl/program.h"
 #include "renderer/gl/vertex_array.h"
 #include "renderer/gpu_world.h"
+#include "renderer/shading/environment_reflection.h"
 #include "renderer/splatting/light_view.h"
 #include "renderer/splatting/splatting_buffer.h"
 
+#include <cstddef>
 #include <span>
 
 /// Light that does not scatter below the surface: the specular lobe of every surface and the
@@ -19,9 +21,18 @@ public:
     /// @param shadowSize texels on a side
     DirectLight(const gl::ShaderLibrary& shaders, const SplattingBuffer& view, int shadowSize);
 
+    /// An environment in highlights.
+    struct Surroundings {
+        const EnvironmentReflection* reflection; ///< of the environment's map
+        const Environment& environment;
+        std::size_t firstLight; ///< from here on, lights stand for it
+    };
+
     /// Replaces the radiance by that of the given lights. The frame block is bound.
+    /// @param around null: highlights see lights only
     void shade(std::span<const Light> lights, const BoundingSphere& sceneSphere,
-               const GpuWorld& world, const SplattingBuffer& view, bool specular, bool shadows);
+               const GpuWorld& world, const SplattingBuffer& view, bool specular, bool shadows,
+               const Surroundings* around);
 
     /// RGBA32F, frame size: W/m^2/sr towards the eye.
     [[nodiscard]] const gl::Texture& radiance() const { return mRadiance; }
@@ -31,10 +42,14 @@ private:
     gl::Texture mShadowMap;
     gl::Framebuffer mShadowFramebuffer;
     gl::Texture mRadiance;
-    gl::Framebuffer mFramebuffer;
+    gl::Texture mReach; ///< RG32F, see direct_light.frag
+    gl::Framebuffer mFramebuffer, mReachFramebuffer;
     gl::Buffer mLightBlock;
     gl::VertexArray mNoAttributes;
-    gl::Program mShadow, mShade;
+    gl::Program mShadow, mShade, mReflect;
+
+    void shadeFrom(const SplattingBuffer& view, bool specular, bool isPartOfReflection);
+    void reflect(const SplattingBuffer& view, const Surroundings& around);
 };
 
 } // namespace celadon

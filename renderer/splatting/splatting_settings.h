@@ -22,11 +22,13 @@ enum class SplatBackendKind {
 struct SplattingSettings {
     Scheme scheme = Scheme::Paper;
     SplatBackendKind backend = SplatBackendKind::Auto;
-    int irradianceSize = 512;    ///< N, texels on a side of the irradiance buffer
-    int irradianceLevels = 6;    ///< 1: level 0 only
-    int splattingLevels = 5;     ///< 1: full resolution only
-    double alpha = 15.0;         ///< eq. 11
-    double epsilon = 0.01;       ///< eq. 14
+    int irradianceSize = 512; ///< N, texels on a side of the irradiance buffer
+    bool refineShortRanges =
+        false;                ///< doubles N where R_P spans few texels (refinedIrradianceSize)
+    int irradianceLevels = 6; ///< 1: level 0 only
+    int splattingLevels = 5;  ///< 1: full resolution only
+    double alpha = 15.0;      ///< eq. 11
+    double epsilon = 0.01;    ///< eq. 14
     /// Rbar over log2 T as MaterialTables has it, for all materials; empty: computed from each.
     std::vector<float> rangeTable{};
     double discontinuity = 0.03; ///< z_0 in bounding sphere radii, eq. 10

@@ -23,6 +23,14 @@ SplatBackendKind resolveBackend(SplatBackendKind kind, const gl::Context& contex
     return context.isSoftware() ? SplatBackendKind::Cpu : SplatBackendKind::Raster;
 }
 
+int refinedIrradianceSize(const SplattingSettings& settings, double shortRadiusMm, double R_w) {
+    // Below, silhouettes and shadows of the light view err by more than 1 % of what is seen.
+    constexpr double kTexelsPerRadius = 15.0;
+    const double texels = settings.irradianceSize * shortRadiusMm / R_w;
+    return settings.refineShortRanges && texels < kTexelsPerRadius ? 2 * settings.irradianceSize
+                                                                   : settings.irradianceSize;
+}
+
 SplattingSolver::SplattingSolver(const gl::ShaderLibrary& shaders,
                                  std::span<const MaterialPointer> maps,
                                  const GpuMaterials& materials, const SplattingBuffer& view,

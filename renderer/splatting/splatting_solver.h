@@ -14,6 +14,12 @@
 /// Multiresolution splatting (Chen et al. 2012): the four steps, four calls.
 namespace celadon {
 
+/// N, twice as large where R_P spans so few texels that the light view itself is the largest error:
+/// settings.irradianceSize, or its double where it is to be refined.
+/// @param shortRadiusMm R_P of what is lit, where it is short; @param R_w in mm
+[[nodiscard]] int refinedIrradianceSize(const SplattingSettings& settings, double shortRadiusMm,
+                                        double R_w);
+
 class SplattingSolver final : public ExitanceSolver {
 public:
     /// @param view already of viewLevels(settings) levels

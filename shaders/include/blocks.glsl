@@ -24,7 +24,8 @@ struct LightBlock {
 // Scattering materials: one element each.
 struct MaterialEntry {
     vec4 profile; // r_s [mm], segments n, eta, 1 / c of the exit Fresnel term (DESIGN 1)
-    vec4 look;    // has roughness map, has specular map, row of the range table, 0
+    vec4 place;   // in the array of all materials: uv (0,0), and how far uv (1,1) is from it
+    vec4 layers;  // first layer, 0, 0, 0
 };
 
 // Settings of one solve (DESIGN 3).

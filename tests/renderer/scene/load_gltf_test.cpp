@@ -395,6 +395,51 @@ TEST_F(GltfTest, MaterialsAndTheirTextures) {
     EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("missing.png': there is no such file")));
 }
 
+TEST_F(GltfTest, VertexColorsAreLinearAndInRange) {
+    mGltf.addTriangle();
+    const auto read = [&](int accessor) {
+        mGltf.primitive()["attributes"]["COLOR_0"] = accessor;
+        return load().meshes[0].colors;
+    };
+    EXPECT_TRUE(load().meshes[0].colors.empty());
+    const int three = mGltf.addFloats({0.5f, 0, 1, 2, -1, NAN, 0, 0, 0}, "VEC3");
+    EXPECT_THAT(read(three), ElementsAre(glm::vec4(0.5f, 0, 1, 1), glm::vec4(1, 0, 0, 1),
+                                         glm::vec4(0, 0, 0, 1)));
+    const std::vector<std::uint8_t> bytes{255, 0, 51, 102, 0, 0, 0, 0, 0, 0, 0, 255};
+    const int four = mGltf.addAccessor(mGltf.addView(bytesOf(bytes)), "VEC4", 5121, 3);
+    mGltf.json["accessors"][static_cast<std::size_t>(four)]["normalized"] = true;
+    EXPECT_EQ(read(four)[0], glm::vec4(1, 0, 0.2f, 0.4f));
+    mGltf.json["accessors"][static_cast<std::size_t>(three)]["count"] = 2;
+    mGltf.primitive()["attributes"]["COLOR_0"] = three;
+    EXPECT_THAT(refused(), HasSubstr("COLOR_0 has 2 elements, but there are 3 vertices"));
+    mGltf.primitive()["attributes"]["COLOR_0"] = mGltf.addFloats({1, 1, 1}, "SCALAR");
+    EXPECT_THAT(refused(), HasSubstr("COLOR_0 is of type SCALAR, not VEC3 or VEC4"));
+}
+
+TEST_F(GltfTest, AlphaModesAndEmissiveTextures) {
+    mGltf.addTriangle();
+    mGltf.json["images"] = {{{"bufferView", mGltf.addView(tinyPng())}, {"mimeType", "image/png"}},
+                            {{"uri", "missing.png"}}};
+    mGltf.json["textures"] = {{{"source", 0}}, {{"source", 1}}};
+    mGltf.json["materials"] = {
+        {{"alphaMode", "MASK"}},
+        {{"alphaMode", "MASK"}, {"alphaCutoff", 0.25}},
+        {{"alphaMode", "BLEND"}},
+        {{"emissiveFactor", {1, 2, 3}}, {"emissiveTexture", {{"index", 0}}}},
+        {{"emissiveFactor", {1, 2, 3}}, {"emissiveTexture", {{"index", 1}}}},
+    };
+    const Scene scene = load();
+    EXPECT_EQ(scene.materials[0].alphaCutoff, 0.5f);
+    EXPECT_EQ(scene.materials[1].alphaCutoff, 0.25f);
+    EXPECT_FALSE(scene.materials[2].alphaCutoff);
+    EXPECT_EQ(scene.materials[3].emission, glm::vec3(1, 2, 3));
+    EXPECT_TRUE(scene.materials[3].emissiveTexture.isSet());
+    EXPECT_EQ(scene.materials[4].emission, glm::vec3(0)); // the factor alone would make all glow
+    EXPECT_THAT(scene.warnings,
+                testing::UnorderedElementsAre(HasSubstr("alpha mode BLEND is ignored"),
+                                              HasSubstr("missing.png")));
+}
+
 TEST_F(GltfTest, TextureRotationTurnsCounterClockwiseAsSeen) {
     mGltf.addTriangle();
     mGltf.json["images"] = {{{"bufferView", mGltf.addView(tinyPng())}, {"mimeType", "image/png"}}};
