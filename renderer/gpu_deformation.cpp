@@ -235,7 +235,8 @@ void GpuDeformation::sendNodes(const NodePose& pose) {
     entries.reserve(pose.nodes.size());
     for (std::size_t n = 0; n < pose.nodes.size(); ++n) {
         const MovedNode& node = pose.nodes[n];
-        entries.push_back({glm::vec4(pose.binding->places[n], 0.0), glm::vec4(node.to, 0.0),
+        entries.push_back({glm::vec4(pose.binding->places[n], 0.0),
+                           glm::vec4(node.to, 0.0),
                            {glm::vec4(node.linear[0], 0.0), glm::vec4(node.linear[1], 0.0),
                             glm::vec4(node.linear[2], 0.0)}});
     }

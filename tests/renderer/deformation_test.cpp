@@ -152,9 +152,9 @@ AnimatedDeformer crookedLattice(const glm::ivec3& size, double amplitudeUnits) {
     lattice.kind = Deformer::Kind::Lattice;
     lattice.lattice.size = size;
     for (int i = 0; i < size.x * size.y * size.z; ++i) {
-        lattice.lattice.offsets.push_back(
-            amplitudeUnits *
-            glm::dvec3(std::sin(i * 1.7), std::cos(i * 2.3 + 1.0), std::sin(i * 0.9 + 2.0)));
+        lattice.lattice.offsets.push_back(amplitudeUnits * glm::dvec3(std::sin(i * 1.7),
+                                                                      std::cos(i * 2.3 + 1.0),
+                                                                      std::sin(i * 0.9 + 2.0)));
     }
     return lattice;
 }
@@ -167,7 +167,8 @@ TEST_F(DeformationTest, LatticesMatchDoublePrecision) {
     for (const glm::ivec3& size :
          {glm::ivec3(2), glm::ivec3(3, 4, 5), glm::ivec3(8), glm::ivec3(2, 8, 3)}) {
         motion.setDeformers({crookedLattice(size, 9.0)});
-        compare(rest, scene.gpuWorld, deformation, motion.at(0.0), fmt::format("{} along x", size.x));
+        compare(rest, scene.gpuWorld, deformation, motion.at(0.0),
+                fmt::format("{} along x", size.x));
     }
     // Two of them, and what has left the box before it meets the second.
     motion.setDeformers({crookedLattice({3, 3, 3}, 6.0), parseDeformer("bend:y:80"),
@@ -210,11 +211,13 @@ TEST_F(DeformationTest, HandlesMatchDoublePrecision) {
             motion.setDeformers({twoHandles(rest, share)});
             compare(rest, scene.gpuWorld, deformation, motion.at(0.0), model);
         }
-        motion.setDeformers({parseDeformer("twist:y:60"), twoHandles(rest, 0.5),
-                             parseDeformer("inflate:0.7")});
-        compare(rest, scene.gpuWorld, deformation, motion.at(0.0), fmt::format("{}, twisted", model));
+        motion.setDeformers(
+            {parseDeformer("twist:y:60"), twoHandles(rest, 0.5), parseDeformer("inflate:0.7")});
+        compare(rest, scene.gpuWorld, deformation, motion.at(0.0),
+                fmt::format("{}, twisted", model));
         motion.setDeformers({});
-        compare(rest, scene.gpuWorld, deformation, motion.at(0.0), fmt::format("{} at rest", model));
+        compare(rest, scene.gpuWorld, deformation, motion.at(0.0),
+                fmt::format("{} at rest", model));
     }
 }
 
