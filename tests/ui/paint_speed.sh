@@ -10,27 +10,9 @@ program=$1
 folder=$2
 seconds=${3:-6}
 
-for tool in Xvfb xdotool; do
-    command -v "$tool" >/dev/null || { echo "skipped: $tool is missing"; exit 77; }
-done
-rm -rf "$folder"
-mkdir -p "$folder/config" "$folder/state" "$folder/cache"
-export XDG_CONFIG_HOME=$folder/config XDG_STATE_HOME=$folder/state XDG_CACHE_HOME=$folder/cache
-unset WAYLAND_DISPLAY
+. "$(dirname "$0")/display.sh"
+open_display "$folder" 1280x720 xdotool
 state=$folder/state.json
-editor=
-exec 3>"$folder/display"
-Xvfb -displayfd 3 -screen 0 1280x720x24 >/dev/null 2>&1 &
-server=$!
-cleanup() {
-    [ -n "$editor" ] && kill -9 "$editor" 2>/dev/null
-    kill "$server" 2>/dev/null
-    wait 2>/dev/null
-}
-trap cleanup EXIT
-for _ in $(seq 100); do [ -s "$folder/display" ] && break; sleep 0.1; done
-DISPLAY=:$(cat "$folder/display")
-export DISPLAY
 
 field() { sed -n "s/.*\"$1\":\([^,}]*\).*/\1/p" "$state" 2>/dev/null; }
 now() { date +%s%N; }

@@ -10,18 +10,8 @@ program=$1
 folder=$2
 seconds=$3
 
-command -v Xvfb >/dev/null || { echo "skipped: Xvfb is missing"; exit 77; }
-rm -rf "$folder"
-mkdir -p "$folder/config" "$folder/state" "$folder/cache"
-export XDG_CONFIG_HOME=$folder/config XDG_STATE_HOME=$folder/state XDG_CACHE_HOME=$folder/cache
-unset WAYLAND_DISPLAY
-exec 3>"$folder/display"
-Xvfb -displayfd 3 -screen 0 1280x720x24 >/dev/null 2>&1 &
-server=$!
-trap 'kill "$server" 2>/dev/null; wait 2>/dev/null' EXIT
-for _ in $(seq 100); do [ -s "$folder/display" ] && break; sleep 0.1; done
-DISPLAY=:$(cat "$folder/display")
-export DISPLAY
+. "$(dirname "$0")/display.sh"
+open_display "$folder" 1280x720
 
 # Strokes around the vase's belly: 40 points each, every fifth taken back and done again.
 awk 'BEGIN {

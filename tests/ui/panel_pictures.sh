@@ -7,19 +7,8 @@ program=$1
 folder=$2
 mode=${3:-all}
 
-command -v Xvfb >/dev/null || { echo "skipped: Xvfb is missing"; exit 77; }
-rm -rf "$folder"
-mkdir -p "$folder/config" "$folder/state" "$folder/cache"
-export XDG_CONFIG_HOME=$folder/config XDG_STATE_HOME=$folder/state
-export XDG_CACHE_HOME=$folder/cache XDG_DATA_HOME=$folder/data
-unset WAYLAND_DISPLAY
-exec 3>"$folder/display"
-Xvfb -displayfd 3 -screen 0 1920x1080x24 >/dev/null 2>&1 &
-server=$!
-trap 'kill "$server" 2>/dev/null; wait 2>/dev/null' EXIT
-for _ in $(seq 100); do [ -s "$folder/display" ] && break; sleep 0.1; done
-DISPLAY=:$(cat "$folder/display")
-export DISPLAY
+. "$(dirname "$0")/display.sh"
+open_display "$folder" 1920x1080
 
 # Each line: name of the picture, then the commands that lead to it, separated by tabs.
 steps=$folder/steps.txt

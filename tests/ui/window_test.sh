@@ -7,29 +7,12 @@ program=$1
 strokeRegion=$2
 folder=$3
 
-for tool in Xvfb xdotool; do
-    command -v "$tool" >/dev/null || { echo "skipped: $tool is missing"; exit 77; }
-done
-
-rm -rf "$folder"
-mkdir -p "$folder/config" "$folder/state"
-export XDG_CONFIG_HOME=$folder/config XDG_STATE_HOME=$folder/state
-export XDG_CACHE_HOME=$folder/cache XDG_DATA_HOME=$folder/data
+. "$(dirname "$0")/display.sh"
+open_display "$folder" 1000x700 xdotool
 model=builtin:sphere
 bunny=${CELADON_MODELS:-}/mesh/bunny_watertight_60k.obj
 [ -f "$bunny" ] && model=$bunny
-unset WAYLAND_DISPLAY
 state=$folder/state.json
-editor=
-exec 3>"$folder/display"
-Xvfb -displayfd 3 -screen 0 1000x700x24 >/dev/null 2>&1 &
-server=$!
-cleanup() {
-    [ -n "$editor" ] && kill -9 "$editor" 2>/dev/null
-    kill "$server" 2>/dev/null
-    wait 2>/dev/null
-}
-trap cleanup EXIT
 
 fail() {
     echo "failed: $*" >&2
@@ -64,11 +47,6 @@ stroke() { # a short stroke across the middle of the viewport
 }
 
 field() { grep -o "\"$1\":[^,}]*" "$state" | cut -d: -f2; }
-
-for _ in $(seq 100); do [ -s "$folder/display" ] && break; sleep 0.1; done
-DISPLAY=:$(cat "$folder/display")
-export DISPLAY
-[ "$DISPLAY" != ":" ] || { echo "skipped: no X server"; exit 77; }
 
 # A stroke, undo, redo, save, close. What is saved differs exactly where the stroke was.
 start --record "$folder/record.jsonl"
