@@ -28,7 +28,7 @@ view() { printf '{"command":"view.mode","name":"%s"%s}' "$1" "${2:-}"; }
     printf 'light\t%s\t{"command":"window.scroll","to":0}\n' "$(tab light)"
     printf 'view\t%s\n' "$(tab view)"
     printf 'view_lower\t{"command":"window.scroll","to":1}\n'
-    printf 'selection\t{"command":"window.scroll","to":0}\t{"command":"select.similar","position":[30,50,30],"normal":[0.7,0,0.7],"tolerance":0.05}\n'
+    printf 'selection\t{"command":"window.scroll","to":0}\t{"command":"select.similar","position":[13.464,31.261,24.724],"normal":[0.832,-0.113,0.544],"tolerance":0.05}\n'
     printf 'exitance\t{"command":"select.change","what":"all"}\t%s\n' "$(view exitance)"
     printf 'level\t%s\n' "$(view level ',"level":3')"
     printf 'radius\t%s\n' "$(view radius)"
