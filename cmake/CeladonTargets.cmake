@@ -2,6 +2,7 @@
 
 add_library(celadon_options INTERFACE)
 target_compile_features(celadon_options INTERFACE cxx_std_20)
+target_link_libraries(celadon_options INTERFACE fmt::fmt)
 target_compile_options(celadon_options INTERFACE
     -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> # GCC 12 is wrong about std::string operator+ (PR 105329)
@@ -19,6 +20,22 @@ if(CELADON_COVERAGE)
     target_link_options(celadon_options INTERFACE --coverage)
 endif()
 
+# Half of the time of a build went into parsing the same standard headers: libraries and tests take them precompiled.
+# Sources still include what they use: -DCELADON_PRECOMPILE=OFF builds without.
+option(CELADON_PRECOMPILE "Precompile the headers that most sources include" ON)
+if(CELADON_PRECOMPILE)
+    add_library(celadon_precompiled_library OBJECT "${CMAKE_CURRENT_LIST_DIR}/precompiled.cpp")
+    set_target_properties(celadon_precompiled_library PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_link_libraries(celadon_precompiled_library PRIVATE celadon_options)
+    target_include_directories(celadon_precompiled_library PRIVATE "${CMAKE_CURRENT_LIST_DIR}")
+    target_precompile_headers(celadon_precompiled_library PRIVATE <precompiled.h>)
+endif()
+function(celadon_reuse_precompiled target from)
+    if(CELADON_PRECOMPILE)
+        target_precompile_headers(${target} REUSE_FROM ${from})
+    endif()
+endfunction()
+
 # celadon_add_library(NAME): a static library of this folder with the alias celadon::NAME.
 # Sources are listed by hand with target_sources in the folder's own CMakeLists.txt.
 function(celadon_add_library name)
@@ -27,6 +44,7 @@ function(celadon_add_library name)
     target_link_libraries(celadon_${name} PRIVATE $<BUILD_INTERFACE:celadon_options>)
     target_include_directories(celadon_${name} PUBLIC "${PROJECT_SOURCE_DIR}")
     set_target_properties(celadon_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    celadon_reuse_precompiled(celadon_${name} celadon_precompiled_library)
 endfunction()
 
 # celadon_add_test(NAME SOURCES a.cpp ... LIBRARIES celadon::x ... [LABELS unit|gpu|golden|slow ...] [GL] [TIMEOUT s])
@@ -37,7 +55,8 @@ function(celadon_add_test name)
         set(ARG_TIMEOUT 300)
     endif()
     add_executable(${name}_test ${ARG_SOURCES})
-    target_link_libraries(${name}_test PRIVATE celadon_options ${ARG_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main)
+    target_link_libraries(${name}_test PRIVATE celadon_test_options ${ARG_LIBRARIES})
+    celadon_reuse_precompiled(${name}_test celadon_precompiled_test)
     target_include_directories(${name}_test PRIVATE "${PROJECT_SOURCE_DIR}")
     target_compile_definitions(${name}_test PRIVATE
         CELADON_SOURCE_DIR="${PROJECT_SOURCE_DIR}" CELADON_PROGRAM="$<TARGET_FILE:celadon>")

@@ -17,7 +17,11 @@ using nlohmann::json;
 std::string shown(const json& value) {
     constexpr std::size_t kLongest = 40;
     std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
-    return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+    if (text.size() > kLongest) {
+        text.resize(kLongest);
+        text += "...";
+    }
+    return text;
 }
 
 /// RFC 6901: "~" and "/" in names are escaped.
