@@ -142,8 +142,7 @@ void writePicture(const RenderOptions& options, const std::filesystem::path& fil
 /// A black picture is never silent.
 void explainDarkness(const World& world, const Camera& camera, const RenderedFrame& frame,
                      const RenderOptions& options) {
-    const CameraView view =
-        makeCameraView(camera, options.size.x, options.size.y, world.sceneSphere);
+    const CameraView view = makeCameraView(camera, options.size.x, options.size.y);
     if (isOutsideView(view, world.sceneSphere)) {
         log::warning(
             "the object is outside the view: move --view-from or --view-at, or leave both out");
@@ -236,6 +235,7 @@ public:
         const double deformationMs = inFrame(number, seconds, [&] { return move(pose); });
         mRenderer->setEnvironment(mEnvironment);
         RenderedFrame frame = mRenderer->render(camera, lights);
+        inFrame(number, seconds, [&] { learnBounds(pose); });
         frame.stats.frame = number;
         frame.stats.milliseconds.deformation = deformationMs;
         frame.stats.milliseconds.total += deformationMs;
@@ -299,7 +299,7 @@ private:
             if (mMotion.moves()) {
                 mDeformation =
                     std::make_unique<GpuDeformation>(mScene->shaders, mWorld, mScene->gpuWorld);
-                static_cast<void>(mDeformation->apply(pose)); // warms up
+                mDeformation->apply(pose); // warms up
             }
         }
         if (!mDeformation) {
@@ -307,11 +307,18 @@ private:
         }
         {
             const auto scope = mTimer.measure("deformation");
-            const GpuDeformation::Bounds bounds = mDeformation->apply(pose);
+            mDeformation->apply(pose);
+        }
+        return mTimer.take().front().timeMs;
+    }
+
+    /// For what is said about the frame. Once the frame is made: it waits for the GPU.
+    void learnBounds(const Pose& pose) {
+        if (mDeformation) {
+            const GpuDeformation::Bounds bounds = mDeformation->bounds(pose);
             mWorld.scatteringSphere = bounds.scattering;
             mWorld.sceneSphere = bounds.scene;
         }
-        return mTimer.take().front().timeMs;
     }
 };
 

@@ -20,9 +20,9 @@ class SplattingBuffer;
 
 struct SolveInput {
     const World& world; ///< geometry on the CPU, for references that trace rays
-    const GpuWorld& gpuWorld;
+    const GpuWorld& gpuWorld; ///< geometry and bounds as they are now
     const GpuMaterials& materials; ///< bound
-    SplattingBuffer& view;         ///< level 0 drawn; its frame block bound
+    SplattingBuffer& view;         ///< level 0 drawn; its frame block and the bounds bound
     const CameraView& camera;
     std::span<const Light> lights; ///< positions in mm
     /// Set from another thread when nobody waits for the result any more: a solver may then return

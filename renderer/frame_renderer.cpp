@@ -140,11 +140,11 @@ bool FrameRenderer::Passes::draw(const Camera& camera, std::span<const Light> ow
                                  const std::atomic<bool>* interrupt) {
     std::vector<Light> lights(ownLights.begin(), ownLights.end());
     lights.insert(lights.end(), aroundLights.begin(), aroundLights.end());
-    cameraView = makeCameraView(camera, settings.size.x, settings.size.y, world.sceneSphere);
+    cameraView = makeCameraView(camera, settings.size.x, settings.size.y);
     materials.bind();
     {
         const auto scope = timer.measure("splattingBuffer");
-        view.draw(gpuWorld, cameraView, 2.0 * world.scatteringSphere.radius);
+        view.draw(gpuWorld, cameraView);
     }
     const SolveInput input{world, gpuWorld, materials, view, cameraView, lights, interrupt};
     exitance = &solver->solve(input, timer);
@@ -156,14 +156,14 @@ bool FrameRenderer::Passes::draw(const Camera& camera, std::span<const Light> ow
     std::vector<double> key = directLightKey(camera, lights);
     if (key != shadedKey) {
         const DirectLight::Surroundings around{reflection.get(), environment, ownLights.size()};
-        directLight.shade(lights, world.sceneSphere, gpuWorld, view, settings.specular,
-                          settings.shadows, reflection ? &around : nullptr);
+        directLight.shade(lights, gpuWorld, view, settings.specular, settings.shadows,
+                          reflection ? &around : nullptr);
         shadedKey = std::move(key);
     }
     shading.shade(view, *exitance, directLight.radiance());
     color = &shading.radiance();
     if (antialiasing != nullptr) {
-        antialiasing->resolve(gpuWorld, camera, world.sceneSphere, view, shading.radiance());
+        antialiasing->resolve(gpuWorld, camera, view, shading.radiance());
         color = &antialiasing->color();
     }
     return true;

@@ -14,11 +14,12 @@ using glm::vec4;
 #include "shaders/include/blocks.glsl"
 
 static_assert(sizeof(FrameBlock) == 2 * 64 + 4 * 16);
+static_assert(sizeof(BoundsBlock) == 2 * 16);
 static_assert(sizeof(LightBlock) == 2 * 64 + 4 * 16);
 static_assert(sizeof(MaterialEntry) == 3 * 16);
 static_assert(sizeof(SolveBlock) == 4 * 16);
 
 /// Binding points, as in shaders/include/*.glsl.
-enum Binding : unsigned { kFrame = 0, kLight = 1, kMaterials = 2, kSolve = 3 };
+enum Binding : unsigned { kFrame = 0, kLight = 1, kMaterials = 2, kSolve = 3, kBounds = 4 };
 
 } // namespace celadon::blocks

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cmath>
 
 namespace celadon {
 
@@ -78,18 +76,8 @@ void send(const char* label, const std::vector<T>& values, gl::Buffer& buffer) {
     }
 }
 
-float restored(std::uint32_t ordered) {
-    return std::bit_cast<float>((ordered & 0x80000000u) != 0 ? ordered & 0x7fffffffu : ~ordered);
-}
-
-BoundingSphere sphereOf(const BoundsEntry& entry) {
-    BoundingSphere sphere;
-    for (int k = 0; k < 3; ++k) {
-        sphere.center[k] = 0.5 * (static_cast<double>(restored(entry.low[k])) +
-                                  static_cast<double>(restored(entry.high[k])));
-    }
-    sphere.radius = std::sqrt(static_cast<double>(std::bit_cast<float>(entry.farthest)));
-    return sphere;
+BoundingSphere toSphere(const glm::vec4& v) {
+    return {glm::dvec3(v), static_cast<double>(v.w)};
 }
 
 /// @param firstOffset of a lattice, among those of all lattices
@@ -336,11 +324,12 @@ void GpuDeformation::move(std::size_t index, const Pose& pose) {
     }
 }
 
-GpuDeformation::Bounds GpuDeformation::measure(const Pose& pose) {
+void GpuDeformation::measure() {
     mBounds.write(std::array<BoundsEntry, 2>{});
     mBoundsOf.use();
     mBoundsOf.set(1, GpuWorld::kVertexFloats);
     mBounds.bindStorage(1);
+    mTarget.bounds().bindStorage(2);
     for (int task = 0; task < 2; ++task) {
         for (std::size_t m = 0; m < mMeshes.size(); ++m) {
             const GpuWorld::Geometry geometry = mTarget.geometry(m);
@@ -349,18 +338,14 @@ GpuDeformation::Bounds GpuDeformation::measure(const Pose& pose) {
             geometry.vertices.bindStorage(0);
             dispatch(mMeshes[m].vertices);
         }
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     }
-    const std::vector<BoundsEntry> entries = mBounds.read<BoundsEntry>();
-    if (entries[0].gone > 0) {
-        refuseExplosion(mRest, pose);
-        throw InputError("the deformation", "takes the surface beyond what the GPU can count",
-                         "give it smaller amounts");
-    }
-    return {sphereOf(entries[1]), sphereOf(entries[0])};
+    mBoundsOf.set(2, glm::ivec2(2, 0));
+    dispatch(1);
+    glMemoryBarrier(GL_UNIFORM_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-GpuDeformation::Bounds GpuDeformation::apply(const Pose& pose) {
+void GpuDeformation::apply(const Pose& pose) {
     const gl::DebugGroup group("deformation");
     sendDeformers(pose);
     if (pose.nodes) {
@@ -371,7 +356,17 @@ GpuDeformation::Bounds GpuDeformation::apply(const Pose& pose) {
     }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT |
                     GL_ELEMENT_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-    return measure(pose);
+    measure();
+}
+
+GpuDeformation::Bounds GpuDeformation::bounds(const Pose& pose) const {
+    if (mBounds.read<BoundsEntry>().front().gone > 0) {
+        refuseExplosion(mRest, pose);
+        throw InputError("the deformation", "takes the surface beyond what the GPU can count",
+                         "give it smaller amounts");
+    }
+    const blocks::BoundsBlock spheres = mTarget.readBounds();
+    return {toSphere(spheres.scattering), toSphere(spheres.scene)};
 }
 
 } // namespace celadon

@@ -10,8 +10,9 @@
 #include <vector>
 
 /// Moves the vertices of a GpuWorld, on the GPU, once a frame: morph targets, handles, skins and
-/// nodes, then deformers, into the very buffers that the light and the camera passes draw from. The CPU sends
-/// matrices and weights and gets 64 bytes of bounds back; it never touches a vertex. Texture
+/// nodes, then deformers, into the very buffers that the light and the camera passes draw from. The
+/// CPU sends matrices and weights and waits for nothing; it never touches a vertex. The bounds go
+/// from buffer to buffer as well, to GpuWorld::bounds(). Texture
 /// coordinates stay, so that the material stays glued to the surface.
 namespace celadon {
 
@@ -20,17 +21,21 @@ public:
     /// @param rest at rest, the world that `target` was made of; both outlive the deformation
     GpuDeformation(const gl::ShaderLibrary& shaders, const World& rest, const GpuWorld& target);
 
+    /// Does not wait for the GPU. A vertex that is not finite is drawn as it is: see bounds().
+    /// @param pose of a Motion of the same world
+    void apply(const Pose& pose);
+
     /// Of the moved vertices, as World has them at rest.
     struct Bounds {
         BoundingSphere scattering;
         BoundingSphere scene;
     };
 
-    /// Waits for the GPU, which has little to do before: a frame begins here.
-    /// @param pose of a Motion of the same world
+    /// What the last apply() came to. Waits for the GPU: after a frame, not before it.
+    /// @param pose the same
     /// @throws InputError that names the mesh and the cause, when a vertex is not finite; the
     ///         buffers then hold what they hold, until the next apply()
-    Bounds apply(const Pose& pose);
+    [[nodiscard]] Bounds bounds(const Pose& pose) const;
 
 private:
     struct Target {
@@ -63,7 +68,7 @@ private:
     [[nodiscard]] const gl::Buffer& orNothing(const gl::Buffer& buffer) const;
     void sendDeformers(const Pose& pose);
     void sendNodes(const NodePose& pose);
-    [[nodiscard]] Bounds measure(const Pose& pose);
+    void measure();
 
     const World& mRest;
     const GpuWorld& mTarget;

@@ -3,6 +3,7 @@
 #include "renderer/gl/debug.h"
 
 #include <algorithm>
+#include <array>
 
 namespace celadon {
 
@@ -28,18 +29,29 @@ gl::Wrap toGl(Wrap wrap) {
     return gl::Wrap::Repeat;
 }
 
+glm::vec4 toVec4(const BoundingSphere& sphere) {
+    return glm::vec4(glm::vec3(sphere.center), float(sphere.radius));
+}
+
 /// Uniform locations of include/surface.glsl and splatting_buffer.frag.
 enum Location { kMeshInfo = 0, kBaseColor, kLobe, kEmission, kTextureSets, kTextureTransforms };
 
 } // namespace
 
-GpuWorld::GpuWorld(const World& world) {
+GpuWorld::GpuWorld(const World& world)
+    : mBounds(gl::Buffer::of("bounds", std::array{blocks::BoundsBlock{
+                                           toVec4(world.scatteringSphere),
+                                           toVec4(world.sceneSphere)}})) {
     for (const SurfaceMaterial& look : world.looks) {
         addLook(world, look);
     }
     for (const WorldMesh& mesh : world.meshes) {
         addMesh(mesh);
     }
+}
+
+blocks::BoundsBlock GpuWorld::readBounds() const {
+    return mBounds.read<blocks::BoundsBlock>().front();
 }
 
 int GpuWorld::addImage(const World& world, int image, bool srgb) {

@@ -5,6 +5,7 @@
 #include "renderer/gl/sampler.h"
 #include "renderer/gl/texture.h"
 #include "renderer/gl/vertex_array.h"
+#include "renderer/gpu_blocks.h"
 #include "renderer/scene/world.h"
 
 #include <memory>
@@ -36,6 +37,13 @@ public:
         return {mMeshes[mesh].vertices, mMeshes[mesh].indices, mMeshes[mesh].scattering >= 0};
     }
 
+    /// Bounding spheres, a blocks::BoundsBlock: those of the world at first, then what moves the
+    /// vertices writes. Passes read it from there, so that nothing in a frame waits for it.
+    [[nodiscard]] const gl::Buffer& bounds() const { return mBounds; }
+    void bindBounds() const { mBounds.bindUniform(blocks::kBounds); }
+    /// Waits for the GPU.
+    [[nodiscard]] blocks::BoundsBlock readBounds() const;
+
 private:
     struct LookTexture {
         int image = -1;
@@ -64,6 +72,7 @@ private:
     int addImage(const World& world, int image, bool srgb);
     LookTexture addTexture(const World& world, const TextureReference& reference, bool srgb);
 
+    gl::Buffer mBounds;
     std::vector<GpuMesh> mMeshes;
     std::vector<Look> mLooks;
     std::vector<gl::Texture> mImages;

@@ -3,20 +3,19 @@
 // depth only; a far ring depends on the pixel's own material through sqrt(P_xo), so that factor (the
 // far energy F) is divided out before interpolation and multiplied in after; a pixel with no
 // reliable neighbor looks further around. Never a hole, never a leak across a silhouette.
-#include "include/frame.glsl"
+#include "include/far_ring.glsl"
 #include "include/material.glsl"
 #include "include/solve.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(location = 0) uniform int level; // k, the finer one
-layout(location = 1) uniform float farRadius; // where ring k + 1 begins, for the mean material at mean depth, mm
 
 layout(binding = 0) uniform sampler2D positions;
 layout(binding = 1) uniform sampler2D normals;
 layout(binding = 2) uniform sampler2D surfaces;
 layout(binding = 3) uniform sampler2D coarse; // B of every level
-layout(binding = 4) uniform sampler2D farEnergy; // logarithms at level k + 1 and farRadius
+layout(binding = 4) uniform sampler2D farEnergy; // logarithms at level k + 1, beyond its ring's start
 
 layout(rgba32f, binding = 0) uniform image2D fine;
 
@@ -46,7 +45,7 @@ void main() {
     float depth = texelFetch(positions, pixel, level).w;
     float width = pixelWidthMm(depth) * float(2 << level);
     vec4 surfacePoint = texelFetch(surfaces, pixel, level);
-    vec3 ownFactor = logFarEnergy(int(surfacePoint.z), surfacePoint.xy, farRadius);
+    vec3 ownFactor = logFarEnergy(int(surfacePoint.z), surfacePoint.xy, farRingStart(level + 1));
 
     vec2 position = (vec2(pixel) + 0.5) * 0.5 - 0.5;
     ivec2 base = ivec2(floor(position));
@@ -75,7 +74,7 @@ void main() {
                 float plane = max(abs(dot(o.normal, offset)), abs(dot(j.normal, offset))) / width;
                 float facing = max(dot(o.normal, j.normal), 0.0);
                 float bilinear = pass == 0 ? (x == 0 ? 1.0 - fraction.x : fraction.x) * (y == 0 ? 1.0 - fraction.y : fraction.y) : 0.05;
-                float similar = exp(-8.0 * abs(o.R_P - j.R_P) / (0.5 * solve.selection.z));
+                float similar = exp(-8.0 * abs(o.R_P - j.R_P) / bounds.scattering.w);
                 float w = bilinear * exp(-0.25 * delta2 - plane) * (facing * facing + 0.001) * similar + (pass == 0 ? 1e-9 : 1e-12);
                 reliable += bilinear * exp(-0.25 * max(delta2 - 2.0, 0.0) - plane) * facing;
                 vec3 b = texelFetch(coarse, neighbor, level + 1).rgb;

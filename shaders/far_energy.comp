@@ -1,10 +1,10 @@
 // For accumulation.comp: ln of the far energy of each texel of a level of the splatting buffer.
+#include "include/far_ring.glsl"
 #include "include/material.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(location = 0) uniform int level;
-layout(location = 1) uniform float farRadius; // where the level's ring begins, for the mean material at mean depth, mm
 
 layout(binding = 0) uniform sampler2D surfaces;
 
@@ -16,5 +16,5 @@ void main() {
         return;
     }
     vec4 s = texelFetch(surfaces, pixel, level);
-    imageStore(result, pixel, vec4(s.z >= 0.0 ? logFarEnergy(int(s.z), s.xy, farRadius) : vec3(0.0), 0.0));
+    imageStore(result, pixel, vec4(s.z >= 0.0 ? logFarEnergy(int(s.z), s.xy, farRingStart(level)) : vec3(0.0), 0.0));
 }

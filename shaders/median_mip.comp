@@ -2,10 +2,12 @@
 // texel of median depth among the covered scattering ones gives normal, texture coordinate and
 // material, whole; position and depth are the mean of those in the median's depth cluster, so that the
 // representative lies at the texel's center. Never a mean across a silhouette.
+#include "include/bounds.glsl"
+
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(location = 0) uniform int childLevel;
-layout(location = 1) uniform float clusterDepth; // mm
+layout(location = 1) uniform float clusterDepth; // of R_w
 
 layout(binding = 0) uniform sampler2D positions;
 layout(binding = 1) uniform sampler2D normals;
@@ -46,7 +48,7 @@ void main() {
         float members = 0.0;
         for (int j = 0; j < count; ++j) {
             int i = order[j];
-            if (abs(p[i].w - p[median].w) < clusterDepth) {
+            if (abs(p[i].w - p[median].w) < clusterDepth * 2.0 * bounds.scattering.w) {
                 position += p[i];
                 normal.xyz += texelFetch(normals, parent * 2 + ivec2(i & 1, i >> 1), childLevel).xyz;
                 members += 1.0;

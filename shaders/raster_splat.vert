@@ -6,6 +6,7 @@
 #include "include/frame.glsl"
 #include "include/light.glsl"
 #include "include/material.glsl"
+#include "include/range_table.glsl"
 #include "include/rings.glsl"
 #include "include/sphere_bounds.glsl"
 
@@ -19,7 +20,6 @@ layout(binding = 2) uniform sampler2D nodeSurfaces;
 layout(binding = 3) uniform sampler2D nodeCovariances;
 layout(binding = 4) uniform sampler2D nodeExtents;
 layout(binding = 5) uniform sampler2D nodeKepts;
-layout(binding = 6) uniform sampler2D rangeTable; // Rbar over (log2 T, material)
 layout(binding = 7) uniform sampler2DArray nodeProfiles;
 layout(binding = 27) uniform sampler2D balls;
 layout(binding = 26) uniform sampler2D tileRanges; // view depths in tiles of 8 x 8 pixels and up
@@ -34,14 +34,6 @@ out Splat {
     flat vec4 parent;    // hierarchical: the parent's position and ball, 1e30: none
     flat vec3 texture_;  // leaf: u, v, material; node: its texel
 } splat;
-
-const float kLogTMax = 12.0; // the table spans log2 T in [0, 12]
-
-float minimalRadius(float T, int material) {
-    vec2 size = vec2(textureSize(rangeTable, 0));
-    float x = clamp(log2(max(T, 1.0)) / kLogTMax, 0.0, 1.0);
-    return textureLod(rangeTable, vec2((x * (size.x - 1.0) + 0.5) / size.x, (float(material) + 0.5) / size.y), 0.0).r;
-}
 
 // R_min^k: R_P Rbar(T_k), T_k the pixels of splatting level k in one R_P (eq. 14). Where Rbar is 1 no
 // distance is far enough for the level: it is left out, and the level before it reaches R_cut. (To

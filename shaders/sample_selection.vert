@@ -5,6 +5,7 @@
 //
 // HIERARCHICAL: a node takes part between its own ball and its parent's (node_ball.comp). Where that
 // touches the ring of the splatting level in question it is selected.
+#include "include/bounds.glsl"
 #include "include/light.glsl"
 #include "include/rings.glsl"
 
@@ -28,7 +29,7 @@ bool isLit(ivec2 node, int level) {
 // divided by R_w: the width of the texel is less than R_P |n . l| / alpha).
 bool isFit(ivec2 node, int level) {
     vec2 range = texelFetch(ranges, node, level).xy;
-    if (!(range.y - range.x < solve.selection.y)) {
+    if (!(range.y - range.x < solve.selection.y * bounds.scattering.w)) {
         return false;
     }
     float cosine = solve.selection.w > 0.0 ? abs(texelFetch(normals, node, level).w) : 1.0;

@@ -1,4 +1,5 @@
 // The deformed surface, from the camera (CAMERA) or from a light.
+#include "include/bounds.glsl"
 #include "include/frame.glsl"
 #include "include/light.glsl"
 
@@ -21,6 +22,11 @@ void main() {
     surface.uv1 = inUv1;
 #ifdef CAMERA
     gl_Position = frame.viewProjection * vec4(inPosition, 1.0);
+    if (frame.eye.w < 0.5) {
+        // Orthographic: depth from 1 to 0 over the scene, a hair wider, so that rounding clips nothing.
+        float beyond = dot(inPosition - bounds.scene.xyz, frame.forward.xyz);
+        gl_Position.z = 0.5 - 0.5 * beyond / max(1.001 * bounds.scene.w, 1e-6);
+    }
 #else
     gl_Position = light.viewProjection * vec4(inPosition, 1.0);
 #endif

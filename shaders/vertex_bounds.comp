@@ -1,10 +1,13 @@
-// The box of all drawn vertices, then the distance of the farthest one from its center; and how many
-// are not finite. Floats are kept as unsigned integers of the same order, for atomics.
+// The box of all drawn vertices, then the distance of the farthest one from its center, then the
+// spheres that passes read; and how many vertices are not finite. Floats are kept as unsigned
+// integers of the same order, for atomics.
+#include "include/blocks.glsl"
+
 layout(local_size_x = 64) in;
 
 layout(location = 0) uniform int count;
 layout(location = 1) uniform int stride;
-layout(location = 2) uniform ivec2 task; // 0: boxes, 1: distances; also into the second entry (what scatters)
+layout(location = 2) uniform ivec2 task; // 0: boxes, 1: distances, 2: spheres; also into the second entry (what scatters)
 
 struct Bounds {
     uint low[3];
@@ -15,6 +18,7 @@ struct Bounds {
 
 layout(std430, binding = 0) restrict readonly buffer Drawn { float drawn[]; };
 layout(std430, binding = 1) restrict coherent buffer AllBounds { Bounds bounds[2]; };
+layout(std430, binding = 2) restrict writeonly buffer Spheres { BoundsBlock spheres; };
 
 shared uint lows[3];
 shared uint highs[3];
@@ -36,7 +40,19 @@ vec3 centerOf(int entry) {
     return 0.5 * low + 0.5 * high;
 }
 
+vec4 sphereOf(int entry) {
+    bool empty = bounds[entry].low[0] > bounds[entry].high[0];
+    return empty ? vec4(0.0, 0.0, 0.0, 1.0) : vec4(centerOf(entry), sqrt(uintBitsToFloat(bounds[entry].farthest)));
+}
+
 void main() {
+    if (task.x == 2) {
+        if (gl_GlobalInvocationID.x == 0u) {
+            spheres.scattering = sphereOf(1);
+            spheres.scene = sphereOf(0);
+        }
+        return;
+    }
     const float kLargest = 1e15; // its square is still finite
     int i = int(gl_GlobalInvocationID.x + gl_NumWorkGroups.x * 64u * gl_GlobalInvocationID.y);
     bool isFirst = gl_LocalInvocationIndex == 0u;

@@ -239,8 +239,7 @@ void PictureRenderers::explainLight(const PictureRequest& request, FrameRenderer
         picture.shownPerLevel = countPerLevel(samples);
         const gl::Texture& positions = renderer.view().positions();
         const std::vector<float> texels = positions.readLevel(0);
-        const CameraView camera = makeCameraView(request.camera, pixels.size.x, pixels.size.y,
-                                                 mWorld->sceneSphere);
+        const CameraView camera = makeCameraView(request.camera, pixels.size.x, pixels.size.y);
         drawSamples(samples, camera, texels.data(), positions.size2d().x, pixels);
     }
     picture.rgba = std::move(pixels.rgba);

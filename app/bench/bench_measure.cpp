@@ -146,11 +146,11 @@ double measureDeformation(const gl::Context& context, const World& rest, const P
     GpuDeformation deformation(scene.shaders, rest, scene.gpuWorld);
     gl::StageTimer timer(context);
     std::vector<double> times;
-    static_cast<void>(deformation.apply(pose)); // warms up
+    deformation.apply(pose); // warms up
     for (int i = 0; i < std::max(repeats, 1); ++i) {
         {
             const auto scope = timer.measure("deformation");
-            static_cast<void>(deformation.apply(pose));
+            deformation.apply(pose);
         }
         times.push_back(timer.take().front().timeMs);
     }

@@ -96,7 +96,7 @@ double meanRadiusPx(const FloatImage& image, const Camera& camera, const World& 
             ++seen;
         }
     }
-    const CameraView view = makeCameraView(camera, image.width, image.height, world.sceneSphere);
+    const CameraView view = makeCameraView(camera, image.width, image.height);
     const double depth = glm::dot(world.scatteringSphere.center - view.eye, view.frame.forward);
     return seen > 0 ? sum / seen / view.pixelWidth.atDepthMm(depth) : kNotMeasured;
 }

@@ -100,6 +100,7 @@ void ReferenceSolver::report(FrameStats& stats) {
 ImageReferenceSolver::ImageReferenceSolver(const gl::ShaderLibrary& shaders, int materialCount,
                                            int irradianceSize, bool pointSamples, int blocks)
     : ReferenceSolver(blocks),
+      mLightViews(shaders, LightViews::Target::Scattering, irradianceSize),
       mIrradiance(shaders, materialCount, irradianceSize, 1),
       mPointSamples(pointSamples) {}
 
@@ -107,11 +108,11 @@ std::vector<glm::vec3> ImageReferenceSolver::gather(const SolveInput& input,
                                                     std::span<const ExitPoint> exitPoints,
                                                     FrameStats& statistics) {
     std::vector<Patch> patches;
-    for (const Light& light : input.lights) {
-        for (const LightView& lightView :
-             makeLightViews(light, input.world.scatteringSphere, input.world.sceneSphere,
-                            mIrradiance.size())) {
-            mIrradiance.draw(input.gpuWorld, lightView);
+    mLightViews.update(input.lights, input.gpuWorld);
+    for (int view = 0; view < mLightViews.count(); ++view) {
+        if (mLightViews.isUsed(view)) {
+            mLightViews.bind(view);
+            mIrradiance.draw(input.gpuWorld);
             appendPatches(mIrradiance, patches);
         }
     }

@@ -5,6 +5,7 @@
 #include "renderer/reference/path_traced.h"
 #include "renderer/reference/surface_reference.h"
 #include "renderer/splatting/irradiance_buffer.h"
+#include "renderer/splatting/light_views.h"
 
 #include <vector>
 
@@ -44,6 +45,7 @@ protected:
                                   FrameStats& statistics) override;
 
 private:
+    LightViews mLightViews;
     IrradianceBuffer mIrradiance;
     bool mPointSamples;
 };

@@ -17,6 +17,9 @@ namespace {
 /// Sine of the least angle between the view and its up vector: below, rounding would pick the roll.
 constexpr double kLeastSine = 1e-6;
 
+/// Nearest visible depth, unless the target is closer than some ten millimeters.
+constexpr double kNearMm = 1e-3;
+
 bool isFinite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -71,31 +74,11 @@ CameraFrame cameraFrame(const Camera& camera) {
     return frame;
 }
 
-CameraView makeCameraView(const Camera& camera, int widthPx, int heightPx,
-                          const BoundingSphere& sceneSphere, glm::dvec2 jitterPx) {
+CameraView makeCameraView(const Camera& camera, int widthPx, int heightPx, glm::dvec2 jitterPx) {
     CameraView result;
     result.frame = cameraFrame(camera);
     result.eye = camera.eye;
     result.orthographic = camera.orthographicHeight.has_value();
-
-    // A hair wider than the sphere, so that rounding to float never clips a vertex on it.
-    const double radius = 1.001 * sceneSphere.radius;
-    const double depth = glm::dot(sceneSphere.center - camera.eye, result.frame.forward);
-    if (result.orthographic) {
-        result.nearMm = depth - radius;
-        result.farMm = depth + radius;
-        if (!(result.farMm > result.nearMm)) {
-            result.farMm = result.nearMm + 1.0;
-        }
-    } else {
-        // From inside the sphere: a millionth of it still resolves depth well, because reversed
-        // depth in float is spread evenly over the logarithm of distance.
-        result.farMm = depth + radius;
-        if (!(result.farMm > 0.0)) {
-            result.farMm = std::max(2.0 * radius, 1.0);
-        }
-        result.nearMm = std::max(depth - radius, 1e-5 * result.farMm);
-    }
 
     const CameraFrame& f = result.frame;
     glm::dmat4 view(1.0);
@@ -105,23 +88,20 @@ CameraView makeCameraView(const Camera& camera, int widthPx, int heightPx,
     result.view = glm::mat4(view);
 
     const double aspect = static_cast<double>(widthPx) / heightPx;
-    const double n = result.nearMm;
-    const double d = result.farMm - result.nearMm;
     const glm::dvec2 jitterClip = 2.0 * jitterPx / glm::dvec2(widthPx, heightPx);
     glm::dmat4 projection(0.0); // [column][row]
     if (result.orthographic) {
         const double height = *camera.orthographicHeight;
         projection[0][0] = 2.0 / (height * aspect);
         projection[1][1] = 2.0 / height;
-        projection[2][2] = 1.0 / d;
-        projection[3] = glm::dvec4(jitterClip, result.farMm / d, 1.0);
+        projection[3] = glm::dvec4(jitterClip, 0.0, 1.0);
         result.pixelWidth = {0.0, height / heightPx};
     } else {
         const double tangent = std::tan(glm::radians(0.5 * camera.fovYDegrees));
         projection[0][0] = 1.0 / (tangent * aspect);
         projection[1][1] = 1.0 / tangent;
-        projection[2] = glm::dvec4(-jitterClip, n / d, -1.0);
-        projection[3][2] = n * result.farMm / d;
+        projection[2] = glm::dvec4(-jitterClip, 0.0, -1.0);
+        projection[3][2] = std::min(kNearMm, 1e-4 * glm::length(camera.at - camera.eye));
         result.pixelWidth = {2.0 * tangent / heightPx, 0.0};
     }
     result.projection = glm::mat4(projection);
@@ -131,7 +111,7 @@ CameraView makeCameraView(const Camera& camera, int widthPx, int heightPx,
 bool isOutsideView(const CameraView& view, const BoundingSphere& sphere) {
     const glm::dmat4 clip = glm::dmat4(view.projection) * glm::dmat4(view.view);
     const glm::dvec4 w = glm::row(clip, 3);
-    // The four sides and, in front of a perspective eye, w > 0 (near and far follow the scene).
+    // The four sides and, in front of a perspective eye, w > 0.
     for (int axis = 0; axis < 2; ++axis) {
         for (const double side : {-1.0, 1.0}) {
             const glm::dvec4 plane = w + side * glm::row(clip, axis);

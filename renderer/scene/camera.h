@@ -54,24 +54,24 @@ struct PixelWidth {
     [[nodiscard]] double atDepthMm(double depthMm) const { return scale * depthMm + offset; }
 };
 
-/// A camera with the size of a picture and the extent of what it looks at.
+/// A camera with the size of a picture. It does not depend on what there is to see, so that a shape
+/// may move on the GPU without the CPU knowing where to.
 struct CameraView {
     glm::mat4 view{1.0f};       ///< world mm -> camera mm; looks along -z
-    glm::mat4 projection{1.0f}; ///< camera -> clip, reversed depth in [0, 1]
+    /// Camera -> clip. Perspective: reversed depth, that of the near plane over it. Orthographic: depth is zero here;
+    /// surface.vert spreads it over the scene's bounds.
+    glm::mat4 projection{1.0f};
     CameraFrame frame;
     glm::dvec3 eye{0.0};
-    double nearMm = 0.0;
-    double farMm = 0.0;
     PixelWidth pixelWidth;
     bool orthographic = false;
 };
 
-/// Near and far planes enclose `sceneSphere` tightly; an orthographic view sees what is behind the
-/// eye, too. Where nothing is in front of a perspective eye the planes are valid but arbitrary.
+/// A perspective view has no far plane, and a near one close enough for anything: reversed depth in
+/// float is as exact at any ratio of the two. An orthographic view sees what is behind the eye, too.
 /// @param jitterPx moves the picture by so many pixels (x to the right, y up), for antialiasing
 /// @throws UsageError as validateCamera
 [[nodiscard]] CameraView makeCameraView(const Camera& camera, int widthPx, int heightPx,
-                                        const BoundingSphere& sceneSphere,
                                         glm::dvec2 jitterPx = glm::dvec2(0.0));
 
 /// Whether no part of a sphere can be seen: what a black picture should say. Conservative: true

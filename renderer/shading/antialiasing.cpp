@@ -69,7 +69,7 @@ Antialiasing::Antialiasing(const gl::ShaderLibrary& shaders, const SplattingBuff
 
 void Antialiasing::drawSamples(const GpuWorld& world, const CameraView& jittered,
                                const SplattingBuffer& view) {
-    mFrameBlock.write(std::array{makeFrameBlock(jittered, view.size(), view.paddedSize(), 0.0)});
+    mFrameBlock.write(std::array{makeFrameBlock(jittered, view.size(), view.paddedSize())});
     mFrameBlock.bindUniform(blocks::kFrame);
     gl::PassState state = gl::PassState::covering(mSampleFramebuffer);
     state.depthTest = gl::DepthTest::Greater;
@@ -109,17 +109,14 @@ void Antialiasing::resolveDraw(const SplattingBuffer& view, const gl::Texture& r
                     GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-void Antialiasing::resolve(const GpuWorld& world, const Camera& camera,
-                           const BoundingSphere& sceneSphere, const SplattingBuffer& view,
+void Antialiasing::resolve(const GpuWorld& world, const Camera& camera, const SplattingBuffer& view,
                            const gl::Texture& radiance) {
     const gl::DebugGroup group("antialiasing");
     mColor.clear(0, glm::vec4(0.0f));
     for (int i = 0; i < mDraws; ++i) {
         // The picture moves against the draw's offset from the pixel's center.
         const glm::dvec2 offset = jitter(i);
-        drawSamples(world,
-                    makeCameraView(camera, view.size().x, view.size().y, sceneSphere, -offset),
-                    view);
+        drawSamples(world, makeCameraView(camera, view.size().x, view.size().y, -offset), view);
         resolveDraw(view, radiance, offset);
     }
 }

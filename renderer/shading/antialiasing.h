@@ -18,8 +18,8 @@ public:
     /// @param samples >= 2, of a pixel; rounded up to whole draws
     Antialiasing(const gl::ShaderLibrary& shaders, const SplattingBuffer& view, int samples);
 
-    void resolve(const GpuWorld& world, const Camera& camera, const BoundingSphere& sceneSphere,
-                 const SplattingBuffer& view, const gl::Texture& radiance);
+    void resolve(const GpuWorld& world, const Camera& camera, const SplattingBuffer& view,
+                 const gl::Texture& radiance);
 
     /// RGBA32F, frame size, premultiplied; alpha is coverage.
     [[nodiscard]] const gl::Texture& color() const { return mColor; }

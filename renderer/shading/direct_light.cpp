@@ -9,7 +9,7 @@ namespace celadon {
 
 DirectLight::DirectLight(const gl::ShaderLibrary& shaders, const SplattingBuffer& view,
                          int shadowSize)
-    : mShadowSize(shadowSize),
+    : mLightViews(shaders, LightViews::Target::Scene, shadowSize),
       mShadowMap(gl::Texture::make2d("shadow map", GL_DEPTH_COMPONENT32F, glm::ivec2(shadowSize))),
       mShadowFramebuffer("shadow map", {}, gl::Attachment{&mShadowMap}),
       mRadiance(gl::Texture::make2d("direct radiance", GL_RGBA32F, view.size())),
@@ -17,7 +17,6 @@ DirectLight::DirectLight(const gl::ShaderLibrary& shaders, const SplattingBuffer
       mFramebuffer("direct radiance", {{&mRadiance}}, gl::Attachment{&view.depth()}),
       mReachFramebuffer("direct radiance and reach", {{&mRadiance}, {&mReach}},
                         gl::Attachment{&view.depth()}),
-      mLightBlock("shadow light", sizeof(blocks::LightBlock), gl::BufferUse::Update),
       mNoAttributes("no attributes"),
       mShadow("shadow map", shaders, {"surface.vert", "shadow_map.frag"}),
       mShade("direct light", shaders, {"fullscreen.vert", "direct_light.frag"}),
@@ -37,30 +36,27 @@ void bindLooks(const SplattingBuffer& view) {
 
 } // namespace
 
-void DirectLight::shade(std::span<const Light> lights, const BoundingSphere& sceneSphere,
-                        const GpuWorld& world, const SplattingBuffer& view, bool specular,
-                        bool shadows, const Surroundings* around) {
+void DirectLight::shade(std::span<const Light> lights, const GpuWorld& world,
+                        const SplattingBuffer& view, bool specular, bool shadows,
+                        const Surroundings* around) {
     const gl::DebugGroup group("direct light");
     mRadiance.clear(0, glm::vec4(0.0f));
     mReach.clear(0, glm::vec4(0.0f));
+    mLightViews.update(lights, world);
     const std::size_t firstAround = around != nullptr ? around->firstLight : lights.size();
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-        for (const LightView& lightView :
-             makeLightViews(lights[i], sceneSphere, sceneSphere, mShadowSize)) {
-            mLightBlock.write(std::span(&lightView.block, 1));
-            mLightBlock.bindUniform(blocks::kLight);
-
-            gl::PassState shadowState = gl::PassState::covering(mShadowFramebuffer);
-            shadowState.depthTest = gl::DepthTest::Greater;
-            shadowState.depthWrite = true;
-            shadowState.depthClamp = true;
-            shadowState.apply();
-            mShadowFramebuffer.clearDepth(0.0f);
-            if (shadows) {
-                world.draw(mShadow, false);
-            }
-            shadeFrom(view, specular, i >= firstAround);
+    for (int lightView = 0; lightView < mLightViews.count(); ++lightView) {
+        const LightViews::Scope whereUsed = mLightViews.whereUsed(lightView);
+        mLightViews.bind(lightView);
+        gl::PassState shadowState = gl::PassState::covering(mShadowFramebuffer);
+        shadowState.depthTest = gl::DepthTest::Greater;
+        shadowState.depthWrite = true;
+        shadowState.depthClamp = true;
+        shadowState.apply();
+        mShadowFramebuffer.clearDepth(0.0f);
+        if (shadows) {
+            world.draw(mShadow, false);
         }
+        shadeFrom(view, specular, mLightViews.lightOf(lightView) >= firstAround);
     }
     if (around != nullptr) {
         reflect(view, *around);

@@ -6,7 +6,7 @@
 #include "renderer/gl/vertex_array.h"
 #include "renderer/gpu_world.h"
 #include "renderer/shading/environment_reflection.h"
-#include "renderer/splatting/light_view.h"
+#include "renderer/splatting/light_views.h"
 #include "renderer/splatting/splatting_buffer.h"
 
 #include <cstddef>
@@ -30,21 +30,19 @@ public:
 
     /// Replaces the radiance by that of the given lights. The frame block is bound.
     /// @param around null: highlights see lights only
-    void shade(std::span<const Light> lights, const BoundingSphere& sceneSphere,
-               const GpuWorld& world, const SplattingBuffer& view, bool specular, bool shadows,
-               const Surroundings* around);
+    void shade(std::span<const Light> lights, const GpuWorld& world, const SplattingBuffer& view,
+               bool specular, bool shadows, const Surroundings* around);
 
     /// RGBA32F, frame size: W/m^2/sr towards the eye.
     [[nodiscard]] const gl::Texture& radiance() const { return mRadiance; }
 
 private:
-    int mShadowSize;
+    LightViews mLightViews;
     gl::Texture mShadowMap;
     gl::Framebuffer mShadowFramebuffer;
     gl::Texture mRadiance;
     gl::Texture mReach; ///< RG32F, see direct_light.frag
     gl::Framebuffer mFramebuffer, mReachFramebuffer;
-    gl::Buffer mLightBlock;
     gl::VertexArray mNoAttributes;
     gl::Program mShadow, mShade, mReflect;
 

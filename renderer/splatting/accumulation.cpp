@@ -2,15 +2,16 @@
 
 #include "renderer/gl/debug.h"
 #include "renderer/splatting/irradiance_buffer.h"
+#include "renderer/splatting/node_balls.h"
 
 namespace celadon {
 
-Accumulation::Accumulation(const gl::ShaderLibrary& shaders, int materialCount,
-                           const SplattingBuffer& view)
-    : mFarEnergy("far energies", shaders, {"far_energy.comp"},
-                 {{"MATERIAL_COUNT", std::to_string(materialCount)}}),
-      mProgram("accumulation", shaders, {"accumulation.comp"},
-               {{"MATERIAL_COUNT", std::to_string(materialCount)}}) {
+Accumulation::Accumulation(const gl::ShaderLibrary& shaders, int materialCount, Scheme scheme,
+                           const SplattingBuffer& view) {
+    std::vector<gl::ShaderDefine> defines = schemeDefines(scheme);
+    defines.push_back({"MATERIAL_COUNT", std::to_string(materialCount)});
+    mFarEnergy = gl::Program("far energies", shaders, {"far_energy.comp"}, defines);
+    mProgram = gl::Program("accumulation", shaders, {"accumulation.comp"}, defines);
     for (int level = 1; level < view.levels(); ++level) {
         mFarEnergies.push_back(
             gl::Texture::make2d("far energies", GL_RGBA32F, view.positions().size2d(level)));
@@ -18,21 +19,21 @@ Accumulation::Accumulation(const gl::ShaderLibrary& shaders, int materialCount,
 }
 
 void Accumulation::accumulate(const gl::Texture& exitance, const SplattingBuffer& view,
-                              std::span<const double> ringStartMm) const {
+                              const GpuMaterials& materials) const {
     const gl::DebugGroup group("accumulation");
+    mFarEnergy.set(1, materials.meanRadiusMm());
+    mProgram.set(1, materials.meanRadiusMm());
+    materials.bindRangeTable(6);
     for (int level = view.levels() - 2; level >= 0; --level) {
         const gl::Texture& farEnergies = mFarEnergies[static_cast<std::size_t>(level)];
-        const auto farRadius = static_cast<float>(ringStartMm[static_cast<std::size_t>(level) + 1]);
         mFarEnergy.use();
         mFarEnergy.set(0, level + 1);
-        mFarEnergy.set(1, farRadius);
         view.surfaces().bind(0);
         farEnergies.bindImage(0, 0, GL_WRITE_ONLY);
         dispatchOver(farEnergies.size2d());
 
         mProgram.use();
         mProgram.set(0, level);
-        mProgram.set(1, farRadius);
         view.positions().bind(0);
         view.normals().bind(1);
         view.surfaces().bind(2);

@@ -3,8 +3,9 @@
 #include "renderer/gl/program.h"
 #include "renderer/gpu_materials.h"
 #include "renderer/splatting/splatting_buffer.h"
+#include "renderer/splatting/splatting_settings.h"
 
-#include <span>
+#include <vector>
 
 /// Step 4 (Chen et al. 2012, eq. 17; DESIGN 3.4): B^k += upsampled B^(k+1), from coarse to fine, in
 /// place; level 0 then holds the exitance.
@@ -12,12 +13,13 @@ namespace celadon {
 
 class Accumulation {
 public:
-    Accumulation(const gl::ShaderLibrary& shaders, int materialCount, const SplattingBuffer& view);
+    Accumulation(const gl::ShaderLibrary& shaders, int materialCount, Scheme scheme,
+                 const SplattingBuffer& view);
 
-    /// @param exitance    B of every level
-    /// @param ringStartMm per level: where its ring begins, for the mean material at mean depth
+    /// The frame, bounds, material and solve blocks are bound.
+    /// @param exitance B of every level
     void accumulate(const gl::Texture& exitance, const SplattingBuffer& view,
-                    std::span<const double> ringStartMm) const;
+                    const GpuMaterials& materials) const;
 
 private:
     std::vector<gl::Texture> mFarEnergies; ///< of level 1, 2, …

@@ -61,7 +61,7 @@ LightTexels CpuBackend::lightTexels() const {
     return texels;
 }
 
-void CpuBackend::buildTree(const LightView& lightView, const SolveInput& input) {
+void CpuBackend::buildTree(const blocks::LightBlock& light, const SolveInput& input) {
     for (int i = 0; i < IrradianceBuffer::kTargets; ++i) {
         read(mIrradiance.target(i), 0, mLight[static_cast<std::size_t>(i)]);
     }
@@ -72,25 +72,30 @@ void CpuBackend::buildTree(const LightView& lightView, const SolveInput& input) 
     tree.adaptive = mSettings.adaptive;
     tree.cutEnergy = mSettings.energy;
     tree.alpha = static_cast<float>(mSettings.alpha);
-    tree.discontinuityMm =
-        static_cast<float>(mSettings.discontinuity * input.world.scatteringSphere.radius);
+    tree.discontinuityMm = static_cast<float>(mSettings.discontinuity) *
+                           input.gpuWorld.readBounds().scattering.w;
     tree.orientation = mSettings.orientation;
-    tree.texelScale = lightView.block.cone.z;
-    tree.texelOffset = lightView.block.cone.w;
+    tree.texelScale = light.cone.z;
+    tree.texelOffset = light.cone.w;
     tree.sampleAngle = static_cast<float>(mSettings.sampleAngle);
     tree.fade = static_cast<float>(mSettings.fade);
     tree.fineSpread = static_cast<float>(mSettings.fineSpread);
     mTree.build(texels, mMaterials, tree);
 }
 
-void CpuBackend::add(const SolveInput& input, const LightView& lightView, gl::StageTimer& timer) {
+void CpuBackend::add(const SolveInput& input, const LightViews& lightViews, int view,
+                     gl::StageTimer& timer) {
+    const blocks::LightBlock light = lightViews.read(view);
+    if (light.direction.w == 0.0f) {
+        return; // not in use
+    }
     {
         const auto scope = timer.measure("irradianceBuffer");
-        mIrradiance.draw(input.gpuWorld, lightView);
+        mIrradiance.draw(input.gpuWorld);
     }
     {
         const auto scope = timer.measure("selection");
-        buildTree(lightView, input);
+        buildTree(light, input);
     }
     const int levels = input.view.levels();
     for (int k = 0; k < levels && !input.isInterrupted(); ++k) {

@@ -19,7 +19,8 @@ public:
                const SplattingBuffer& view, const SplattingSettings& settings);
 
     void begin(const SolveInput& input) override;
-    void add(const SolveInput& input, const LightView& lightView, gl::StageTimer& timer) override;
+    void add(const SolveInput& input, const LightViews& lightViews, int view,
+             gl::StageTimer& timer) override;
     void finish() override;
     void materialsChanged() override { mMaterials.update(); }
     [[nodiscard]] gl::Texture& exitance() override { return mExitance; }
@@ -30,7 +31,7 @@ public:
     [[nodiscard]] LightTexels lightTexels() const;
 
 private:
-    void buildTree(const LightView& lightView, const SolveInput& input);
+    void buildTree(const blocks::LightBlock& light, const SolveInput& input);
 
     SplattingSettings mSettings;
     IrradianceBuffer mIrradiance; ///< level 0 only

@@ -20,7 +20,6 @@ IrradianceBuffer::IrradianceBuffer(const gl::ShaderLibrary& shaders, int materia
     : mSize(size),
       mLevels(levels),
       mPaddedSize(celadon::paddedSize(glm::ivec2(size), levels).x),
-      mLightBlock("light", sizeof(blocks::LightBlock), gl::BufferUse::Update),
       mDraw("irradiance buffer", shaders, {"surface.vert", "irradiance_buffer.frag"},
             {{"MATERIAL_COUNT", std::to_string(materialCount)}}),
       mMip("irradiance mip", shaders, {"irradiance_mip.comp"}),
@@ -39,10 +38,8 @@ IrradianceBuffer::IrradianceBuffer(const gl::ShaderLibrary& shaders, int materia
     mFramebuffer = gl::Framebuffer("irradiance buffer", colors, gl::Attachment{&mDepth});
 }
 
-void IrradianceBuffer::draw(const GpuWorld& world, const LightView& view) {
+void IrradianceBuffer::draw(const GpuWorld& world) {
     const gl::DebugGroup group("irradiance buffer");
-    mLightBlock.write(std::span(&view.block, 1));
-    mLightBlock.bindUniform(blocks::kLight);
     gl::PassState state;
     state.framebuffer = &mFramebuffer;
     state.viewport = glm::ivec4(0, 0, mSize, mSize); // the padding stays background

@@ -6,7 +6,6 @@
 #include "renderer/gl/texture.h"
 #include "renderer/gpu_materials.h"
 #include "renderer/gpu_world.h"
-#include "renderer/splatting/light_view.h"
 
 /// Step 1, light side (Chen et al. 2012, section 4; DESIGN 3.1): what one light view sees, as a
 /// pyramid of patches. Level 0 has N x N texels; sizes are padded to a multiple of 2^(levels - 1),
@@ -18,8 +17,9 @@ public:
     /// @param size N >= 1; @param levels >= 1
     IrradianceBuffer(const gl::ShaderLibrary& shaders, int materialCount, int size, int levels);
 
-    /// Draws level 0. The frame's and materials' uniform blocks are bound.
-    void draw(const GpuWorld& world, const LightView& view);
+    /// Draws level 0 from a view of this buffer's size. The frame's, the materials' and the light
+    /// view's uniform blocks are bound.
+    void draw(const GpuWorld& world);
     /// Levels 1 and up, and the depth ranges; reads the solve block.
     void buildMips();
 
@@ -44,7 +44,6 @@ private:
     gl::Texture mDepth;
     gl::Texture mDepthRanges; ///< RG32F, all levels: least and greatest depth in mm
     gl::Framebuffer mFramebuffer;
-    gl::Buffer mLightBlock;
     gl::Program mDraw, mMip, mRangeMip;
 };
 

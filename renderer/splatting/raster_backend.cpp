@@ -31,11 +31,11 @@ void RasterBackend::begin(const SolveInput& input) {
     mSplat.clear();
 }
 
-void RasterBackend::add(const SolveInput& input, const LightView& lightView,
+void RasterBackend::add(const SolveInput& input, const LightViews& lightViews, int view,
                         gl::StageTimer& timer) {
     {
         const auto scope = timer.measure("irradianceBuffer");
-        mIrradiance.draw(input.gpuWorld, lightView);
+        mIrradiance.draw(input.gpuWorld);
         mIrradiance.buildMips();
         if (mProfiles) {
             mProfiles->build(mIrradiance, static_cast<float>(mSettings.energy));
@@ -54,7 +54,7 @@ void RasterBackend::add(const SolveInput& input, const LightView& lightView,
         const auto scope = timer.measure("splatting " + std::to_string(k));
         mSplat.splat(k, input.view, mIrradiance, profiles, balls, mSelection, input.materials);
     }
-    if (mObserver) {
+    if (mObserver && lightViews.isUsed(view)) {
         mObserver();
     }
 }

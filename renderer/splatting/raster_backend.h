@@ -22,7 +22,8 @@ public:
                   const SplattingBuffer& view, const SplattingSettings& settings);
 
     void begin(const SolveInput& input) override;
-    void add(const SolveInput& input, const LightView& lightView, gl::StageTimer& timer) override;
+    void add(const SolveInput& input, const LightViews& lightViews, int view,
+             gl::StageTimer& timer) override;
     [[nodiscard]] gl::Texture& exitance() override { return mSplat.exitance(); }
     void count(FrameStats& statistics) override;
 

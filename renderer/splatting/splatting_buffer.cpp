@@ -17,13 +17,13 @@ constexpr int kTilePx = 8;          ///< as tile_range.comp has it
 
 } // namespace
 
-blocks::FrameBlock makeFrameBlock(const CameraView& view, glm::ivec2 size, glm::ivec2 paddedSize,
-                                  double R_w) {
+blocks::FrameBlock makeFrameBlock(const CameraView& view, glm::ivec2 size,
+                                  glm::ivec2 paddedSize) {
     blocks::FrameBlock block;
     block.view = view.view;
     block.viewProjection = view.projection * view.view;
     block.eye = glm::vec4(glm::vec3(view.eye), view.orthographic ? 0.0f : 1.0f);
-    block.forward = glm::vec4(glm::vec3(view.frame.forward), float(R_w));
+    block.forward = glm::vec4(glm::vec3(view.frame.forward), 0.0f);
     block.frameSize = glm::vec4(size, paddedSize);
     block.projection = glm::vec4(view.projection[0][0], view.projection[1][1],
                                  float(view.pixelWidth.scale), float(view.pixelWidth.offset));
@@ -60,10 +60,11 @@ SplattingBuffer::SplattingBuffer(const gl::ShaderLibrary& shaders, int materialC
     mFramebuffer = gl::Framebuffer("splatting buffer", colors, gl::Attachment{&mDepth});
 }
 
-void SplattingBuffer::draw(const GpuWorld& world, const CameraView& view, double R_w) {
+void SplattingBuffer::draw(const GpuWorld& world, const CameraView& view) {
     const gl::DebugGroup group("splatting buffer");
-    mFrameBlock.write(std::array{makeFrameBlock(view, mSize, mPaddedSize, R_w)});
+    mFrameBlock.write(std::array{makeFrameBlock(view, mSize, mPaddedSize)});
     mFrameBlock.bindUniform(blocks::kFrame);
+    world.bindBounds();
     gl::PassState state;
     state.framebuffer = &mFramebuffer;
     state.viewport = glm::ivec4(0, 0, mSize); // the padding stays background
@@ -77,10 +78,10 @@ void SplattingBuffer::draw(const GpuWorld& world, const CameraView& view, double
     world.draw(mDraw, true);
 }
 
-void SplattingBuffer::buildMips(double clusterDepthMm) {
+void SplattingBuffer::buildMips(double clusterDepth) {
     const gl::DebugGroup group("median mips");
     mMip.use();
-    mMip.set(1, static_cast<float>(clusterDepthMm));
+    mMip.set(1, static_cast<float>(clusterDepth));
     for (int level = 1; level < mLevels; ++level) {
         mMip.set(0, level - 1);
         for (int i = 0; i < kGeometryTargets; ++i) {

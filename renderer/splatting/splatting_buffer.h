@@ -19,11 +19,11 @@ public:
     SplattingBuffer(const gl::ShaderLibrary& shaders, int materialCount, glm::ivec2 size,
                     int levels);
 
-    /// Draws level 0 with all looks and binds the frame block.
-    /// @param R_w bounding sphere diameter in mm
-    void draw(const GpuWorld& world, const CameraView& view, double R_w);
-    /// Levels 1 and up. @param clusterDepthMm depths that count as one surface
-    void buildMips(double clusterDepthMm);
+    /// Draws level 0 with all looks and binds the frame block and the bounds.
+    void draw(const GpuWorld& world, const CameraView& view);
+    /// Levels 1 and up. @param clusterDepth depths that count as one surface, in bounding sphere
+    /// diameters
+    void buildMips(double clusterDepth);
     /// For backends that draw splats, see tileRanges().
     void buildTileRanges();
 
@@ -58,6 +58,6 @@ private:
 
 /// The frame block of a view. Frame and padded size in pixels.
 [[nodiscard]] blocks::FrameBlock makeFrameBlock(const CameraView& view, glm::ivec2 size,
-                                                glm::ivec2 paddedSize, double R_w);
+                                                glm::ivec2 paddedSize);
 
 } // namespace celadon

@@ -4,7 +4,6 @@
 #include "renderer/splatting/raster_backend.h"
 #include "subedit/assert.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -38,7 +37,8 @@ SplattingSolver::SplattingSolver(const gl::ShaderLibrary& shaders,
                                  const GpuMaterials& materials, const SplattingBuffer& view,
                                  const SplattingSettings& settings)
     : mSettings(settings),
-      mAccumulation(shaders, materials.count(), view),
+      mLightViews(shaders, LightViews::Target::Scattering, settings.irradianceSize),
+      mAccumulation(shaders, materials.count(), settings.scheme, view),
       mSolveBlock("solve", sizeof(blocks::SolveBlock), gl::BufferUse::Update) {
     CELADON_ASSERT(settings.backend != SplatBackendKind::Auto);
     if (settings.backend == SplatBackendKind::Cpu) {
@@ -49,9 +49,8 @@ SplattingSolver::SplattingSolver(const gl::ShaderLibrary& shaders,
 }
 
 void SplattingSolver::writeSolveBlock(const SolveInput& input) {
-    const double radius = input.world.scatteringSphere.radius;
     blocks::SolveBlock block;
-    block.selection = glm::vec4(mSettings.alpha, mSettings.discontinuity * radius, 2.0 * radius,
+    block.selection = glm::vec4(mSettings.alpha, mSettings.discontinuity, 0.0,
                                 mSettings.orientation ? 1.0 : 0.0);
     const gather::Knots& knots = input.materials.commonKnots();
     block.node = glm::vec4(knots.rangeMm, float(knots.segments), float(mSettings.sampleAngle),
@@ -64,44 +63,25 @@ void SplattingSolver::writeSolveBlock(const SolveInput& input) {
     mSolveBlock.bindUniform(blocks::kSolve);
 }
 
-std::vector<double> SplattingSolver::ringStarts(const SolveInput& input) const {
-    const double depth = std::max(glm::dot(input.world.scatteringSphere.center - input.camera.eye,
-                                           input.camera.frame.forward),
-                                  1e-3);
-    const double pixel = input.camera.pixelWidth.atDepthMm(depth);
-    const double R_P = static_cast<double>(input.materials.meanRadiusMm());
-    std::vector<double> starts(static_cast<std::size_t>(viewLevels()), 0.0);
-    for (int k = 1; k < viewLevels(); ++k) {
-        const double width = pixel * (1 << k);
-        starts[static_cast<std::size_t>(k)] =
-            mSettings.scheme == Scheme::Hierarchical
-                ? width / mSettings.pixelAngle
-                : R_P * static_cast<double>(input.materials.minimalRadius(float(R_P / width)));
-    }
-    return starts;
-}
-
 const gl::Texture& SplattingSolver::solve(const SolveInput& input, gl::StageTimer& timer) {
     mStatistics = {};
     mStatistics.samples.selected.assign(static_cast<std::size_t>(irradianceLevels()), 0);
-    const double diameter = 2.0 * input.world.scatteringSphere.radius;
     writeSolveBlock(input);
     {
         const auto scope = timer.measure("splattingBuffer");
-        input.view.buildMips(kClusterDepth * diameter);
+        input.view.buildMips(kClusterDepth);
         mBackend->begin(input);
     }
-    for (const Light& light : input.lights) {
-        for (const LightView& lightView :
-             makeLightViews(light, input.world.scatteringSphere, input.world.sceneSphere,
-                            mSettings.irradianceSize)) {
-            if (input.isInterrupted()) {
-                return mBackend->exitance();
-            }
-            mBackend->add(input, lightView, timer);
-            if (mCollect) {
-                mBackend->count(mStatistics);
-            }
+    mLightViews.update(input.lights, input.gpuWorld);
+    for (int view = 0; view < mLightViews.count(); ++view) {
+        if (input.isInterrupted()) {
+            return mBackend->exitance();
+        }
+        const LightViews::Scope whereUsed = mLightViews.whereUsed(view);
+        mLightViews.bind(view);
+        mBackend->add(input, mLightViews, view, timer);
+        if (mCollect && mLightViews.isUsed(view)) {
+            mBackend->count(mStatistics);
         }
     }
     const auto scope = timer.measure("accumulation");
@@ -109,7 +89,7 @@ const gl::Texture& SplattingSolver::solve(const SolveInput& input, gl::StageTime
     if (mCollect) {
         countPairs();
     }
-    mAccumulation.accumulate(mBackend->exitance(), input.view, ringStarts(input));
+    mAccumulation.accumulate(mBackend->exitance(), input.view, input.materials);
     return mBackend->exitance();
 }
 

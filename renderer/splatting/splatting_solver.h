@@ -4,13 +4,13 @@
 #include "renderer/gl/context.h"
 #include "renderer/splatting/accumulation.h"
 #include "renderer/splatting/cpu_backend.h"
+#include "renderer/splatting/light_views.h"
 #include "renderer/splatting/raster_backend.h"
 #include "renderer/splatting/splat_backend.h"
 #include "renderer/splatting/splatting_settings.h"
 
 #include <memory>
 #include <span>
-#include <vector>
 
 /// Multiresolution splatting (Chen et al. 2012): the four steps, four calls.
 namespace celadon {
@@ -48,7 +48,6 @@ public:
 
 private:
     void writeSolveBlock(const SolveInput& input);
-    [[nodiscard]] std::vector<double> ringStarts(const SolveInput& input) const;
     [[nodiscard]] int irradianceLevels() const {
         return mSettings.adaptive ? mSettings.irradianceLevels : 1;
     }
@@ -56,6 +55,7 @@ private:
 
     SplattingSettings mSettings;
     std::unique_ptr<SplatBackend> mBackend;
+    LightViews mLightViews;
     Accumulation mAccumulation;
     gl::Buffer mSolveBlock;
     bool mCollect = false;

@@ -6,9 +6,15 @@ struct FrameBlock {
     mat4 view;           // world mm -> view, -z forward
     mat4 viewProjection; // reverse z, clip range 0..1
     vec4 eye;            // xyz; w: 1 perspective, 0 orthographic
-    vec4 forward;        // unit view direction; w: R_w, bounding sphere diameter
+    vec4 forward;        // unit view direction; 0
     vec4 frameSize;      // W, H, padded W, padded H of level 0
     vec4 projection;     // P00, P11 of the projection; pixel width in mm at depth z is z * third + fourth
+};
+
+// What there is to see, in mm: center and radius. Written by the GPU where the shape moves.
+struct BoundsBlock {
+    vec4 scattering; // over scattering meshes; its diameter is R_w
+    vec4 scene;      // over everything
 };
 
 // One light view: a frustum from which the irradiance buffer is drawn.
@@ -16,7 +22,7 @@ struct LightBlock {
     mat4 view;
     mat4 viewProjection;
     vec4 position;  // xyz mm; w: 1 for point and spot, 0 for directional
-    vec4 direction; // unit, along which light travels; w: edge of the square of texels, N
+    vec4 direction; // unit, along which light travels; w: edge of the square of texels, N; 0: a view not in use
     vec4 color;     // irradiance [W/m^2] or radiant intensity [W/sr]; w: 1 spot
     vec4 cone;      // cos inner, cos outer; texel width in mm at depth z is z * third + fourth
 };
@@ -30,7 +36,7 @@ struct MaterialEntry {
 
 // Settings of one solve (DESIGN 3).
 struct SolveBlock {
-    vec4 selection; // alpha, z_0 [mm], R_w [mm], 1: eq. 11 has |n . l|
+    vec4 selection; // alpha, z_0 in bounding sphere radii, 0, 1: eq. 11 has |n . l|
     vec4 node;      // node profiles: r_s [mm], segments n; theta_s, beta (hierarchical)
     vec4 rings;     // levels of the splatting buffer, levels of the irradiance buffer, theta_p, b (hierarchical)
     vec4 energy;    // 1: give back what the cut leaves out; 1: adaptive; 1: multiresolution; R_cut is r_s

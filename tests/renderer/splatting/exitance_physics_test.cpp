@@ -164,7 +164,7 @@ TEST_P(ExitancePhysics, DoesNotDependOnTheCamera) {
     const std::vector<Light> lights{test::frontLight()};
     const FloatImage a = render(world, settings, first, lights);
     const FloatImage b = render(world, settings, second, lights);
-    const CameraView view = makeCameraView(second, kSize.x, kSize.y, world.sceneSphere);
+    const CameraView view = makeCameraView(second, kSize.x, kSize.y);
     double squares = 0.0;
     double norm = 0.0;
     int shared = 0;

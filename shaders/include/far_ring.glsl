@@ -1,0 +1,17 @@
+#include "include/bounds.glsl"
+#include "include/frame.glsl"
+#include "include/range_table.glsl"
+#include "include/solve.glsl"
+
+layout(location = 1) uniform float meanRadius; // R_P of the mean material, mm
+
+// Where ring k begins, for the mean material at mean depth, mm.
+float farRingStart(int k) {
+    float depth = max(dot(bounds.scattering.xyz - frame.eye.xyz, frame.forward.xyz), 1e-3);
+    float width = pixelWidthMm(depth) * float(1 << k);
+#ifdef HIERARCHICAL
+    return width / solve.rings.z;
+#else
+    return meanRadius * minimalRadius(meanRadius / width, 0);
+#endif
+}
