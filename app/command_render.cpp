@@ -12,7 +12,6 @@
 #include "renderer/output/image_io.h"
 #include "renderer/output/tone_map.h"
 #include "renderer/scene/camera.h"
-#include "renderer/splatting/splatting_solver.h"
 #include "subedit/errors.h"
 #include "subedit/map/range_table_file.h"
 
@@ -32,15 +31,6 @@ void checkOutputs(const RenderOptions& options) {
     checkWritable(outputOfFrame(options, options.frames ? options.frames->first : 0));
     if (options.stats) {
         checkWritable(*options.stats);
-    }
-}
-
-void refuseUnbuilt(const RenderOptions& options) {
-    const auto refuse = [](const std::string& what) {
-        throw UsageError(what, "is not built yet", "leave it out");
-    };
-    if (options.backend == SplatBackendKind::Tiled) {
-        refuse("--backend tiled");
     }
 }
 
@@ -109,9 +99,7 @@ RenderStats statsHead(const RenderOptions& options, const FrameSettings& setting
     stats.contextVersion = context.version();
     stats.solver = solverName(options.solver);
     stats.scheme = schemeName(options.scheme);
-    stats.backend = options.solver == Solver::Splatting
-                        ? backendName(resolveBackend(options.backend, context))
-                        : "cpu";
+    stats.backend = "cpu";
     stats.width = settings.size.x;
     stats.height = settings.size.y;
     stats.irradianceLevels = settings.splatting.adaptive ? settings.splatting.irradianceLevels : 1;
@@ -260,6 +248,7 @@ public:
         mWorld.materials = {std::move(material)};
     }
     [[nodiscard]] double millimetersPerUnit() const { return mWorld.millimetersPerUnit; }
+    [[nodiscard]] SplatBackendKind backend() const { return mRenderer->backend(); }
 
 private:
     const RenderOptions& mOptions;
@@ -337,7 +326,6 @@ Command addRenderCommand(CLI::App& root) {
 }
 
 void render(const RenderOptions& options) {
-    refuseUnbuilt(options);
     const FrameRange frames = options.frames.value_or(FrameRange{});
     const FrameSettings settings = frameSettings(options);
     MaterialOverTime material(options);
@@ -364,6 +352,9 @@ void render(const RenderOptions& options) {
         RenderedFrame frame = maker->make(number);
         stats.millimetersPerUnit = maker->millimetersPerUnit();
         stats.irradianceSize = maker->irradianceSize();
+        if (options.solver == Solver::Splatting) {
+            stats.backend = backendName(maker->backend());
+        }
         stats.frames.push_back(frame.stats);
         writePicture(options, outputOfFrame(options, number), std::move(frame.image));
         progress.update(static_cast<std::size_t>(number - frames.first + 1));

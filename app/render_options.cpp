@@ -172,7 +172,10 @@ void addMethod(CLI::App& app, RenderOptions& o) {
               takeChoice(o.scheme, kSchemes));
     addOption(app, "--quality", {group, "draft|default|final", "Sets what is not set below"},
               takeChoice(o.quality, kQualities));
-    addOption(app, "--backend", {group, "auto|raster|tiled|cpu", "What splats; default auto"},
+    addOption(app, "--backend",
+              {group, "auto|raster|tiled|cpu",
+               "What splats; default auto: cpu on software drivers, else the faster of raster "
+               "and tiled, measured in the first frame"},
               takeChoice(o.backend, kBackends));
     addOption(app, "--context", {group, "auto|glfw|egl|osmesa", "OpenGL through; default auto"},
               takeChoice(o.context, kContexts));

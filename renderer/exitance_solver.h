@@ -19,8 +19,8 @@ class GpuMaterials;
 class SplattingBuffer;
 
 struct SolveInput {
-    const World& world; ///< geometry on the CPU, for references that trace rays
-    const GpuWorld& gpuWorld; ///< geometry and bounds as they are now
+    const World& world;            ///< geometry on the CPU, for references that trace rays
+    const GpuWorld& gpuWorld;      ///< geometry and bounds as they are now
     const GpuMaterials& materials; ///< bound
     SplattingBuffer& view;         ///< level 0 drawn; its frame block and the bounds bound
     const CameraView& camera;

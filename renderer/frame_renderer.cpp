@@ -203,6 +203,11 @@ ExitanceSolver& FrameRenderer::solver() {
     return *mPasses->solver;
 }
 
+SplatBackendKind FrameRenderer::backend() const {
+    const auto* splatting = dynamic_cast<const SplattingSolver*>(mPasses->solver.get());
+    return splatting != nullptr ? splatting->backend() : mPasses->settings.splatting.backend;
+}
+
 const SplattingBuffer& FrameRenderer::view() const {
     return mPasses->view;
 }

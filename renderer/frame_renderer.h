@@ -98,6 +98,8 @@ public:
     /// B of the last frame at pixel centers, W/m^2; its mips are B^k accumulated.
     [[nodiscard]] const gl::Texture& exitance() const;
 
+    /// What splats, once a frame was drawn with the splatting solver.
+    [[nodiscard]] SplatBackendKind backend() const;
     /// For tests and for views that explain: the solver and its buffers.
     [[nodiscard]] ExitanceSolver& solver();
 

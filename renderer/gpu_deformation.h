@@ -12,8 +12,8 @@
 /// Moves the vertices of a GpuWorld, on the GPU, once a frame: morph targets, handles, skins and
 /// nodes, then deformers, into the very buffers that the light and the camera passes draw from. The
 /// CPU sends matrices and weights and waits for nothing; it never touches a vertex. The bounds go
-/// from buffer to buffer as well, to GpuWorld::bounds(). Texture
-/// coordinates stay, so that the material stays glued to the surface.
+/// from buffer to buffer as well, to GpuWorld::bounds(). Texture coordinates stay, so that the
+/// material stays glued to the surface.
 namespace celadon {
 
 class GpuDeformation {

@@ -39,9 +39,9 @@ enum Location { kMeshInfo = 0, kBaseColor, kLobe, kEmission, kTextureSets, kText
 } // namespace
 
 GpuWorld::GpuWorld(const World& world)
-    : mBounds(gl::Buffer::of("bounds", std::array{blocks::BoundsBlock{
-                                           toVec4(world.scatteringSphere),
-                                           toVec4(world.sceneSphere)}})) {
+    : mBounds(
+          gl::Buffer::of("bounds", std::array{blocks::BoundsBlock{toVec4(world.scatteringSphere),
+                                                                  toVec4(world.sceneSphere)}})) {
     for (const SurfaceMaterial& look : world.looks) {
         addLook(world, look);
     }

@@ -2,7 +2,7 @@
 layout(points) in;
 layout(triangle_strip, max_vertices = 4) out;
 
-in Splat {
+in SplatPoint {
     flat vec4 rectangle;
     flat vec4 center;
     flat vec4 flux;
@@ -11,7 +11,7 @@ in Splat {
     flat vec3 ring;
     flat vec4 parent;
     flat vec3 texture_;
-} splat[];
+} point[];
 
 flat out vec4 center;
 flat out vec4 flux;
@@ -24,21 +24,21 @@ flat out vec4 parent;
 flat out vec3 nodeTexture;
 
 void main() {
-    vec4 r = splat[0].rectangle;
+    vec4 r = point[0].rectangle;
     if (r.z <= r.x || r.w <= r.y) {
         return;
     }
     for (int i = 0; i < 4; ++i) {
         gl_Position = vec4((i & 1) == 0 ? r.x : r.z, (i & 2) == 0 ? r.y : r.w, 0.0, 1.0);
-        center = splat[0].center;
-        flux = splat[0].flux;
-        diagonal = splat[0].diagonal;
-        offDiagonal = splat[0].offDiagonal;
-        ring = splat[0].ring;
+        center = point[0].center;
+        flux = point[0].flux;
+        diagonal = point[0].diagonal;
+        offDiagonal = point[0].offDiagonal;
+        ring = point[0].ring;
 #ifdef HIERARCHICAL
-        parent = splat[0].parent;
+        parent = point[0].parent;
 #endif
-        nodeTexture = splat[0].texture_;
+        nodeTexture = point[0].texture_;
         EmitVertex();
     }
     EndPrimitive();

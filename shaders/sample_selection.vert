@@ -5,38 +5,14 @@
 //
 // HIERARCHICAL: a node takes part between its own ball and its parent's (node_ball.comp). Where that
 // touches the ring of the splatting level in question it is selected.
-#include "include/bounds.glsl"
-#include "include/light.glsl"
+#include "include/fit.glsl"
 #include "include/rings.glsl"
 
 layout(location = 0) uniform ivec3 levelAndWidth; // level, texels in a row of it, splatting level (-1: any)
 
-layout(binding = 0) uniform sampler2D positions;
-layout(binding = 1) uniform sampler2D normals;
-layout(binding = 2) uniform sampler2D fluxes;
-layout(binding = 3) uniform sampler2D extents;
-layout(binding = 4) uniform sampler2D ranges;
 layout(binding = 5) uniform sampler2D balls;
 
 flat out int selectedNode; // -1: not selected
-
-bool isLit(ivec2 node, int level) {
-    vec3 flux = texelFetch(fluxes, node, level).rgb;
-    return flux.r + flux.g + flux.b > 0.0;
-}
-
-// Eq. 10: no depth discontinuity inside, and finer than the material asks for (T_k > M, eq. 11, both
-// divided by R_w: the width of the texel is less than R_P |n . l| / alpha).
-bool isFit(ivec2 node, int level) {
-    vec2 range = texelFetch(ranges, node, level).xy;
-    if (!(range.y - range.x < solve.selection.y * bounds.scattering.w)) {
-        return false;
-    }
-    float cosine = solve.selection.w > 0.0 ? abs(texelFetch(normals, node, level).w) : 1.0;
-    float radius = texelFetch(extents, node, level).z;
-    float width = (texelFetch(positions, node, level).w * light.cone.z + light.cone.w) * float(1 << level);
-    return width * solve.selection.x < radius * cosine;
-}
 
 // Whether the node has weight at some distance within r_s, and within the ring asked for.
 bool takesPart(ivec2 node, int level, int k) {

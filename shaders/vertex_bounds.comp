@@ -2,6 +2,7 @@
 // spheres that passes read; and how many vertices are not finite. Floats are kept as unsigned
 // integers of the same order, for atomics.
 #include "include/blocks.glsl"
+#include "include/ordered_float.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -24,15 +25,6 @@ shared uint lows[3];
 shared uint highs[3];
 shared uint farthests[2];
 shared uint gones;
-
-uint ordered(float value) {
-    uint bits = floatBitsToUint(value);
-    return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
-}
-
-float restored(uint bits) {
-    return uintBitsToFloat((bits & 0x80000000u) != 0u ? bits & 0x7fffffffu : ~bits);
-}
 
 vec3 centerOf(int entry) {
     vec3 low = vec3(restored(bounds[entry].low[0]), restored(bounds[entry].low[1]), restored(bounds[entry].low[2]));

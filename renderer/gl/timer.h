@@ -26,6 +26,9 @@ public:
     /// @param context current, and outlives the timer
     explicit StageTimer(const Context& context) : mSoftware(context.isSoftware()) {}
 
+    /// Another one for the same driver, without stages.
+    [[nodiscard]] StageTimer sibling() const { return StageTimer(mSoftware); }
+
     /// A stage, from construction to destruction. Stages may nest.
     class [[nodiscard]] Scope {
     public:
@@ -51,6 +54,8 @@ private:
     struct QueryTraits {
         static void destroy(GLuint id) { glDeleteQueries(1, &id); }
     };
+    explicit StageTimer(bool software) : mSoftware(software) {}
+
     using Query = Handle<QueryTraits>;
     using Clock = std::chrono::steady_clock;
     struct Stage {

@@ -57,9 +57,9 @@ struct PixelWidth {
 /// A camera with the size of a picture. It does not depend on what there is to see, so that a shape
 /// may move on the GPU without the CPU knowing where to.
 struct CameraView {
-    glm::mat4 view{1.0f};       ///< world mm -> camera mm; looks along -z
-    /// Camera -> clip. Perspective: reversed depth, that of the near plane over it. Orthographic: depth is zero here;
-    /// surface.vert spreads it over the scene's bounds.
+    glm::mat4 view{1.0f}; ///< world mm -> camera mm; looks along -z
+    /// Camera -> clip. Perspective: reversed depth, that of the near plane over it. Orthographic:
+    /// depth is zero here; surface.vert spreads it over the scene's bounds.
     glm::mat4 projection{1.0f};
     CameraFrame frame;
     glm::dvec3 eye{0.0};
@@ -68,7 +68,8 @@ struct CameraView {
 };
 
 /// A perspective view has no far plane, and a near one close enough for anything: reversed depth in
-/// float is as exact at any ratio of the two. An orthographic view sees what is behind the eye, too.
+/// float is as exact at any ratio of the two. An orthographic view sees what is behind the eye,
+/// too.
 /// @param jitterPx moves the picture by so many pixels (x to the right, y up), for antialiasing
 /// @throws UsageError as validateCamera
 [[nodiscard]] CameraView makeCameraView(const Camera& camera, int widthPx, int heightPx,

@@ -72,8 +72,8 @@ void CpuBackend::buildTree(const blocks::LightBlock& light, const SolveInput& in
     tree.adaptive = mSettings.adaptive;
     tree.cutEnergy = mSettings.energy;
     tree.alpha = static_cast<float>(mSettings.alpha);
-    tree.discontinuityMm = static_cast<float>(mSettings.discontinuity) *
-                           input.gpuWorld.readBounds().scattering.w;
+    tree.discontinuityMm =
+        static_cast<float>(mSettings.discontinuity) * input.gpuWorld.readBounds().scattering.w;
     tree.orientation = mSettings.orientation;
     tree.texelScale = light.cone.z;
     tree.texelOffset = light.cone.w;

@@ -11,10 +11,10 @@
 #include <span>
 #include <vector>
 
-/// Frusta from which lights see the scattering surface (DESIGN 3.1), made on the GPU from the bounds
-/// that are there, so that a moving shape needs no read-back (light_views.comp has the geometry).
-/// Whether a point light needs one frustum or six cube faces is found there as well: it always has
-/// six views, and what is drawn and dispatched for those not in use has no effect.
+/// Frusta from which lights see the scattering surface (DESIGN 3.1), made on the GPU from the
+/// bounds that are there, so that a moving shape needs no read-back (light_views.comp has the
+/// geometry). Whether a point light needs one frustum or six cube faces is found there as well: it
+/// always has six views, and what is drawn and dispatched for those not in use has no effect.
 namespace celadon {
 
 class LightViews {
@@ -36,7 +36,8 @@ public:
     /// The light block of a view.
     void bind(int view) const;
 
-    /// While it lives, draws, clears of attachments and dispatches count only if the view is in use.
+    /// While it lives, draws, clears of attachments and dispatches count only if the view is in
+    /// use.
     class [[nodiscard]] Scope {
     public:
         explicit Scope(GLuint query) : mQuery(query) {

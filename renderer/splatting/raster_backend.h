@@ -1,15 +1,10 @@
 #pragma once
 
-#include "renderer/splatting/irradiance_buffer.h"
-#include "renderer/splatting/node_balls.h"
-#include "renderer/splatting/node_profiles.h"
+#include "renderer/splatting/gpu_samples.h"
 #include "renderer/splatting/raster_splat.h"
-#include "renderer/splatting/sample_selection.h"
 #include "renderer/splatting/splat_backend.h"
-#include "renderer/splatting/splatting_settings.h"
 
 #include <functional>
-#include <optional>
 #include <utility>
 
 /// The paper's way, all of it on the GPU: mips, selection in the vertex shader, splats grown in the
@@ -25,23 +20,17 @@ public:
     void add(const SolveInput& input, const LightViews& lightViews, int view,
              gl::StageTimer& timer) override;
     [[nodiscard]] gl::Texture& exitance() override { return mSplat.exitance(); }
-    void count(FrameStats& statistics) override;
+    void count(FrameStats& statistics) override { mSamples.count(statistics); }
 
     /// The buffers of the last light view, for tests and for views that explain.
-    [[nodiscard]] const IrradianceBuffer& irradianceBuffer() const { return mIrradiance; }
-    [[nodiscard]] const SampleSelection& selection() const { return mSelection; }
-    [[nodiscard]] const NodeProfiles* nodeProfiles() const {
-        return mProfiles ? &*mProfiles : nullptr;
-    }
-    /// Called for each light view once its samples are selected and splatted.
+    [[nodiscard]] const IrradianceBuffer& irradianceBuffer() const { return mSamples.buffer(); }
+    [[nodiscard]] const SampleSelection& selection() const { return mSamples.selection(); }
+    [[nodiscard]] const NodeProfiles* nodeProfiles() const { return mSamples.profiles(); }
+    /// Called for each light view in use once its samples are selected and splatted.
     void observeLightViews(std::function<void()> observer) { mObserver = std::move(observer); }
 
 private:
-    SplattingSettings mSettings;
-    IrradianceBuffer mIrradiance;
-    std::optional<NodeProfiles> mProfiles;
-    std::optional<NodeBalls> mBalls; ///< hierarchical
-    SampleSelection mSelection;
+    GpuSamples mSamples;
     RasterSplat mSplat;
     std::function<void()> mObserver;
 };

@@ -31,37 +31,24 @@ void RasterSplat::clear() {
     }
 }
 
-void RasterSplat::splat(int splattingLevel, const SplattingBuffer& view,
-                        const IrradianceBuffer& buffer, const NodeProfiles* profiles,
-                        const NodeBalls* balls, const SampleSelection& selection,
+void RasterSplat::splat(int splattingLevel, const SplattingBuffer& view, const GpuSamples& samples,
                         const GpuMaterials& materials) {
     const gl::DebugGroup group("splats");
     gl::PassState state =
         gl::PassState::covering(mFramebuffers[static_cast<std::size_t>(splattingLevel)]);
     state.blend = gl::Blend::Additive;
     state.apply();
-    // Units 0 to 5 are the sample's in the vertex shader, 24 to 26 the pixels'.
-    buffer.positions().bind(0);
-    buffer.fluxes().bind(1);
-    buffer.surfaces().bind(2);
-    buffer.covariances().bind(3);
-    buffer.extents().bind(4);
-    buffer.kepts().bind(5);
+    samples.bindNodes();
     materials.bindRangeTable(6);
-    if (profiles != nullptr) {
-        profiles->profiles().bind(7);
-    }
     view.positions().bind(24);
     view.surfaces().bind(25);
     view.tileRanges().bind(26);
-    if (balls != nullptr) {
-        balls->radii().bind(27);
-    }
-    for (int level = 0; level < buffer.levels(); ++level) {
+    const gl::Texture& positions = samples.buffer().positions();
+    for (int level = 0; level < positions.levels(); ++level) {
         const gl::Program& program = level > 0 && mNode ? *mNode : mLeaf;
         program.use();
-        program.set(0, glm::ivec4(level, buffer.positions().size2d(level).x, splattingLevel, 0));
-        selection.draw(level);
+        program.set(0, glm::ivec4(level, positions.size2d(level).x, splattingLevel, 0));
+        samples.selection().draw(level);
     }
 }
 

@@ -3,8 +3,7 @@
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/program.h"
 #include "renderer/gl/texture.h"
-#include "renderer/splatting/node_profiles.h"
-#include "renderer/splatting/sample_selection.h"
+#include "renderer/splatting/gpu_samples.h"
 #include "renderer/splatting/splatting_buffer.h"
 #include "renderer/splatting/splatting_settings.h"
 
@@ -25,9 +24,8 @@ public:
     void clear();
     /// Adds the samples of one light view to B of one level of the splatting buffer. The frame,
     /// light, material and solve blocks are bound.
-    void splat(int splattingLevel, const SplattingBuffer& view, const IrradianceBuffer& buffer,
-               const NodeProfiles* profiles, const NodeBalls* balls,
-               const SampleSelection& selection, const GpuMaterials& materials);
+    void splat(int splattingLevel, const SplattingBuffer& view, const GpuSamples& samples,
+               const GpuMaterials& materials);
 
     /// RGBA32F with the levels of the splatting buffer: B^k in W/m^2; alpha counts pairs.
     [[nodiscard]] gl::Texture& exitance() { return mExitance; }

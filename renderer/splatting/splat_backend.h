@@ -13,8 +13,8 @@ public:
 
     /// B of every level becomes zero. The splatting buffer and its mips are drawn.
     virtual void begin(const SolveInput& input) = 0;
-    /// Adds one light view; the frame, bounds, material, solve and light blocks are bound. Where the
-    /// view is not in use nothing is added: its draws and dispatches are without effect.
+    /// Adds one light view; the frame, bounds, material, solve and light blocks are bound. Where
+    /// the view is not in use nothing is added: its draws and dispatches are without effect.
     virtual void add(const SolveInput& input, const LightViews& lightViews, int view,
                      gl::StageTimer& timer) = 0;
     /// After the last light view: exitance() is complete.

@@ -17,8 +17,7 @@ constexpr int kTilePx = 8;          ///< as tile_range.comp has it
 
 } // namespace
 
-blocks::FrameBlock makeFrameBlock(const CameraView& view, glm::ivec2 size,
-                                  glm::ivec2 paddedSize) {
+blocks::FrameBlock makeFrameBlock(const CameraView& view, glm::ivec2 size, glm::ivec2 paddedSize) {
     blocks::FrameBlock block;
     block.view = view.view;
     block.viewProjection = view.projection * view.view;

@@ -13,7 +13,7 @@ enum class Scheme {
 
 /// What adds up the pairs; all of one meaning.
 enum class SplatBackendKind {
-    Auto,   ///< the faster for the driver: cpu where it is software, else raster
+    Auto,   ///< cpu where the driver is software, else the faster of raster and tiled, as measured
     Raster, ///< geometry shader and blending, the paper's
     Tiled,  ///< tiles gather in a compute shader
     Cpu     ///< tiles gather on the processor; for software drivers, where a read-back is a copy

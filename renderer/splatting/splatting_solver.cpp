@@ -2,10 +2,13 @@
 
 #include "renderer/splatting/cpu_backend.h"
 #include "renderer/splatting/raster_backend.h"
-#include "subedit/assert.h"
+#include "renderer/splatting/tiled_backend.h"
 
 #include <array>
+#include <chrono>
 #include <cmath>
+#include <map>
+#include <mutex>
 
 namespace celadon {
 
@@ -16,10 +19,7 @@ constexpr double kClusterDepth = 0.01; ///< of R_w: depths of one surface in a m
 } // namespace
 
 SplatBackendKind resolveBackend(SplatBackendKind kind, const gl::Context& context) {
-    if (kind != SplatBackendKind::Auto) {
-        return kind;
-    }
-    return context.isSoftware() ? SplatBackendKind::Cpu : SplatBackendKind::Raster;
+    return kind == SplatBackendKind::Auto && context.isSoftware() ? SplatBackendKind::Cpu : kind;
 }
 
 int refinedIrradianceSize(const SplattingSettings& settings, double shortRadiusMm, double R_w) {
@@ -36,16 +36,71 @@ SplattingSolver::SplattingSolver(const gl::ShaderLibrary& shaders,
                                  std::span<const MaterialPointer> maps,
                                  const GpuMaterials& materials, const SplattingBuffer& view,
                                  const SplattingSettings& settings)
-    : mSettings(settings),
+    : mShaders(shaders),
+      mMaps(maps),
+      mMaterials(materials),
+      mView(view),
+      mSettings(settings),
       mLightViews(shaders, LightViews::Target::Scattering, settings.irradianceSize),
       mAccumulation(shaders, materials.count(), settings.scheme, view),
       mSolveBlock("solve", sizeof(blocks::SolveBlock), gl::BufferUse::Update) {
-    CELADON_ASSERT(settings.backend != SplatBackendKind::Auto);
-    if (settings.backend == SplatBackendKind::Cpu) {
-        mBackend = std::make_unique<CpuBackend>(shaders, maps, view, settings);
-    } else {
-        mBackend = std::make_unique<RasterBackend>(shaders, materials, view, settings);
+    if (settings.backend != SplatBackendKind::Auto) {
+        makeBackend();
     }
+}
+
+void SplattingSolver::makeBackend() {
+    switch (mSettings.backend) {
+    case SplatBackendKind::Cpu:
+        mBackend = std::make_unique<CpuBackend>(mShaders, mMaps, mView, mSettings);
+        break;
+    case SplatBackendKind::Tiled:
+        mBackend = std::make_unique<TiledBackend>(mShaders, mMaps, mMaterials, mView, mSettings);
+        break;
+    case SplatBackendKind::Auto:
+    case SplatBackendKind::Raster:
+        mBackend = std::make_unique<RasterBackend>(mShaders, mMaterials, mView, mSettings);
+        break;
+    }
+}
+
+void SplattingSolver::chooseBackend(const SolveInput& input, const gl::StageTimer& timer) {
+    static std::mutex mutex;
+    static std::map<Scheme, SplatBackendKind> choices;
+    const std::scoped_lock lock(mutex);
+    auto choice = choices.find(mSettings.scheme);
+    if (choice == choices.end()) {
+        choice = choices.emplace(mSettings.scheme, measureFaster(input, timer)).first;
+    }
+    mSettings.backend = choice->second;
+    makeBackend();
+}
+
+SplatBackendKind SplattingSolver::measureFaster(const SolveInput& input,
+                                                const gl::StageTimer& timer) {
+    using Clock = std::chrono::steady_clock;
+    constexpr int kSolves = 3; // of each; the first warms up
+    SolveInput whole = input;
+    whole.interrupt = nullptr;
+    gl::StageTimer unread = timer.sibling();
+    SplatBackendKind faster = SplatBackendKind::Raster;
+    Clock::duration least = Clock::duration::max();
+    for (const SplatBackendKind kind : {SplatBackendKind::Raster, SplatBackendKind::Tiled}) {
+        mSettings.backend = kind;
+        makeBackend();
+        for (int i = 0; i < kSolves; ++i) {
+            glFinish();
+            const Clock::time_point begin = Clock::now();
+            solveOnce(whole, unread);
+            glFinish();
+            const Clock::duration elapsed = Clock::now() - begin;
+            if (i > 0 && elapsed < least) {
+                least = elapsed;
+                faster = kind;
+            }
+        }
+    }
+    return faster;
 }
 
 void SplattingSolver::writeSolveBlock(const SolveInput& input) {
@@ -64,6 +119,14 @@ void SplattingSolver::writeSolveBlock(const SolveInput& input) {
 }
 
 const gl::Texture& SplattingSolver::solve(const SolveInput& input, gl::StageTimer& timer) {
+    if (!mBackend) {
+        chooseBackend(input, timer);
+    }
+    solveOnce(input, timer);
+    return mBackend->exitance();
+}
+
+void SplattingSolver::solveOnce(const SolveInput& input, gl::StageTimer& timer) {
     mStatistics = {};
     mStatistics.samples.selected.assign(static_cast<std::size_t>(irradianceLevels()), 0);
     writeSolveBlock(input);
@@ -75,7 +138,7 @@ const gl::Texture& SplattingSolver::solve(const SolveInput& input, gl::StageTime
     mLightViews.update(input.lights, input.gpuWorld);
     for (int view = 0; view < mLightViews.count(); ++view) {
         if (input.isInterrupted()) {
-            return mBackend->exitance();
+            return;
         }
         const LightViews::Scope whereUsed = mLightViews.whereUsed(view);
         mLightViews.bind(view);
@@ -90,7 +153,12 @@ const gl::Texture& SplattingSolver::solve(const SolveInput& input, gl::StageTime
         countPairs();
     }
     mAccumulation.accumulate(mBackend->exitance(), input.view, input.materials);
-    return mBackend->exitance();
+}
+
+void SplattingSolver::materialsChanged() {
+    if (mBackend) {
+        mBackend->materialsChanged();
+    }
 }
 
 void SplattingSolver::countPairs() {

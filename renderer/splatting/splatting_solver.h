@@ -24,7 +24,10 @@ namespace celadon {
 class SplattingSolver final : public ExitanceSolver {
 public:
     /// @param view already of viewLevels(settings) levels
-    /// @param settings its backend is not Auto
+    /// @param shaders, maps, materials, view outlive the solver
+    /// @param settings with backend Auto the first solve() measures raster and tiled, and stays
+    /// with
+    ///        the faster; so do later solvers of the same scheme in this process
     SplattingSolver(const gl::ShaderLibrary& shaders, std::span<const MaterialPointer> maps,
                     const GpuMaterials& materials, const SplattingBuffer& view,
                     const SplattingSettings& settings);
@@ -35,7 +38,10 @@ public:
     [[nodiscard]] int viewLevels() const override { return viewLevels(mSettings); }
     const gl::Texture& solve(const SolveInput& input, gl::StageTimer& timer) override;
     void report(FrameStats& stats) override;
-    void materialsChanged() override { mBackend->materialsChanged(); }
+    void materialsChanged() override;
+
+    /// Never Auto once something was solved.
+    [[nodiscard]] SplatBackendKind backend() const { return mSettings.backend; }
 
     /// The raster backend and its buffers, for tests and views that explain; else null.
     [[nodiscard]] RasterBackend* raster() { return dynamic_cast<RasterBackend*>(mBackend.get()); }
@@ -47,14 +53,22 @@ public:
     void collectStatistics(bool on) { mCollect = on; }
 
 private:
+    void makeBackend();
+    void chooseBackend(const SolveInput& input, const gl::StageTimer& timer);
+    SplatBackendKind measureFaster(const SolveInput& input, const gl::StageTimer& timer);
+    void solveOnce(const SolveInput& input, gl::StageTimer& timer);
     void writeSolveBlock(const SolveInput& input);
     [[nodiscard]] int irradianceLevels() const {
         return mSettings.adaptive ? mSettings.irradianceLevels : 1;
     }
     void countPairs();
 
+    const gl::ShaderLibrary& mShaders;
+    std::span<const MaterialPointer> mMaps;
+    const GpuMaterials& mMaterials;
+    const SplattingBuffer& mView;
     SplattingSettings mSettings;
-    std::unique_ptr<SplatBackend> mBackend;
+    std::unique_ptr<SplatBackend> mBackend; ///< null while Auto
     LightViews mLightViews;
     Accumulation mAccumulation;
     gl::Buffer mSolveBlock;
@@ -62,7 +76,7 @@ private:
     FrameStats mStatistics;
 };
 
-/// What Auto means on a driver.
+/// What Auto means on a driver; Auto again where that must be measured.
 [[nodiscard]] SplatBackendKind resolveBackend(SplatBackendKind kind, const gl::Context& context);
 
 } // namespace celadon

@@ -140,8 +140,7 @@ TEST(ChooseCamera, DefaultViewFitsEveryVertexTightly) {
         const World world = worldOf(name);
         for (const double aspect : {0.5, 4.0 / 3.0, 3.0}) {
             const Camera camera = chooseCamera(world, {}, aspect);
-            const CameraView view =
-                makeCameraView(camera, static_cast<int>(600.0 * aspect), 600);
+            const CameraView view = makeCameraView(camera, static_cast<int>(600.0 * aspect), 600);
             glm::dvec2 low(1e9);
             glm::dvec2 high(-1e9);
             for (const glm::vec3& position : world.meshes[0].mesh.positions) {

@@ -388,6 +388,16 @@ TEST_F(ShaderPairs, ProgramsCompileForEveryNumberOfMaterials) {
     EXPECT_NO_THROW(gl::Program("homogeneous splat", library,
                                 {"raster_splat.vert", "raster_splat.geom", "raster_splat.frag"},
                                 {{"MATERIAL_COUNT", "1"}, {"HOMOGENEOUS", "1"}, {"LEAF", "1"}}));
+    for (const std::vector<gl::ShaderDefine>& options :
+         {std::vector<gl::ShaderDefine>{},
+          {{"KNOTS", "33"}},
+          {{"HOMOGENEOUS", "1"}},
+          {{"KNOTS", "33"}, {"HOMOGENEOUS", "1"}},
+          {{"KNOTS", "33"}, {"HIERARCHICAL", "1"}}}) {
+        std::vector<gl::ShaderDefine> defines = options;
+        defines.insert(defines.end(), {{"SLICES", "4"}, {"BATCH", "16"}});
+        EXPECT_NO_THROW(gl::Program("tile gather", library, {"tile_gather.comp"}, defines));
+    }
 }
 
 } // namespace
