@@ -52,8 +52,9 @@ void addFiles(CLI::App& app, RenderOptions& o) {
               {group, "FILE|NAME", "Another material, into which --material fades over the frames"},
               takeText(o.materialTo));
     addOption(app, "--fade-frames",
-              {group, "A:B", "It is --material up to frame A and --material-to from B on; default: "
-                             "the first and the last of --frames"},
+              {group, "A:B",
+               "It is --material up to frame A and --material-to from B on; default: "
+               "the first and the last of --frames"},
               [&o](const Argument& a) { o.fadeFrames = parseFrames(a); });
     addFlag(app, "--aov", group,
             "Adds layers to the EXR: exitance (W/m^2), position (mm), normal, uv, radius (mm), "
@@ -151,14 +152,15 @@ void addMotion(CLI::App& app, RenderOptions& o) {
     addOption(app, "--sequence",
               {group, "PATTERN", "One model file a frame, such as frame_%04d.ply"},
               takeText(o.sequence));
-    addRepeatable(app, "--deform",
-                  {group, "DEFORM",
-                   "twist:AXIS:DEG, bend:AXIS:DEG, taper:AXIS:SCALE, inflate:MM or\n"
-                   "wave:AXIS:AMPLITUDE_MM:WAVELENGTH_MM, all but inflate with :FROM,TO after it for "
-                   "a part of the extent\n"
-                   "FILE.json: lattices, handles, keys; repeatable, in order; default: those that "
-                   "the model stores; none: without them"},
-                  [&o](const Argument& a) { o.deformations.push_back(parseText(a)); });
+    addRepeatable(
+        app, "--deform",
+        {group, "DEFORM",
+         "twist:AXIS:DEG, bend:AXIS:DEG, taper:AXIS:SCALE, inflate:MM or\n"
+         "wave:AXIS:AMPLITUDE_MM:WAVELENGTH_MM, all but inflate with :FROM,TO after it for "
+         "a part of the extent\n"
+         "FILE.json: lattices, handles, keys; repeatable, in order; default: those that "
+         "the model stores; none: without them"},
+        [&o](const Argument& a) { o.deformations.push_back(parseText(a)); });
 }
 
 void addMethod(CLI::App& app, RenderOptions& o) {

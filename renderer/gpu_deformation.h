@@ -47,7 +47,8 @@ private:
         gl::Buffer morphed; ///< the same with morph targets on; none without
         gl::Buffer map, influences, matrices, miters;
         gl::Buffer vertexNodes, restMatrices;
-        gl::Buffer handled; ///< position, normal and miter of each drawn vertex; none without handles
+        gl::Buffer
+            handled; ///< position, normal and miter of each drawn vertex; none without handles
         std::vector<Target> targets;
         int vertices = 0;
         int triangles = 0;

@@ -35,8 +35,8 @@ FrameSettings settingsOf(const PictureRequest& request) {
 
 /// A quality's other settings follow from these.
 bool isSame(const FrameSettings& a, const FrameSettings& b) {
-    return a.size == b.size && a.coverageSamples == b.coverageSamples &&
-           a.specular == b.specular && a.splatting.backend == b.splatting.backend &&
+    return a.size == b.size && a.coverageSamples == b.coverageSamples && a.specular == b.specular &&
+           a.splatting.backend == b.splatting.backend &&
            a.splatting.irradianceSize == b.splatting.irradianceSize;
 }
 
@@ -103,8 +103,8 @@ void PictureRenderers::apply(const std::deque<MaterialPatch>& patches) {
             largestLog = std::max(largestLog, value);
         }
         const float* from = patch.logProfile.data();
-        const auto row = static_cast<std::size_t>(patch.rect.width) *
-                         static_cast<std::size_t>(map.knots()) * 3;
+        const auto row =
+            static_cast<std::size_t>(patch.rect.width) * static_cast<std::size_t>(map.knots()) * 3;
         for (int y = patch.rect.y; y < patch.rect.bottom(); ++y, from += row) {
             std::copy_n(from, row, map.logProfile.data() + map.index(patch.rect.x, y, 0));
         }
@@ -179,9 +179,8 @@ std::optional<Picture> PictureRenderers::render(const PictureRequest& request,
     if (splatting != nullptr) {
         splatting->collectStatistics(request.wantsCounts);
     }
-    renderer.setEnvironment(looksAtLight(request.view.mode) && !lights.empty()
-                                ? Environment{}
-                                : request.environment);
+    renderer.setEnvironment(
+        looksAtLight(request.view.mode) && !lights.empty() ? Environment{} : request.environment);
     const gl::Texture* const radiance = renderer.draw(request.camera, lights, &interrupt);
     picture.stages = renderer.takeTimes();
     if (radiance == nullptr) {
@@ -213,8 +212,7 @@ void PictureRenderers::develop(const PictureRequest& request, const gl::Texture&
         display.exposureEv = 0.0f;
         display.toneMap = ToneMap::None;
     }
-    const gl::Texture& shown =
-        mToneMap->apply(*source, display, overlayFor(request, renderer));
+    const gl::Texture& shown = mToneMap->apply(*source, display, overlayFor(request, renderer));
     picture.sizePx = shown.size2d();
     picture.rgba.resize(static_cast<std::size_t>(picture.sizePx.x) *
                         static_cast<std::size_t>(picture.sizePx.y) * 4);

@@ -39,7 +39,9 @@ float ExitanceFilm::coverageOf(int x, int y) const {
         const glm::dvec3 aside = across * mCamera.frame.right + up * mCamera.frame.up;
         if (mCamera.orthographic) {
             // An orthographic view sees what is behind the eye, too.
-            origin += mCamera.pixelWidth.offset * aside + mCamera.nearMm * direction;
+            const BoundingSphere& scene = mRays.world().sceneSphere;
+            const double before = glm::dot(scene.center - origin, direction) - 1.001 * scene.radius;
+            origin += mCamera.pixelWidth.offset * aside + before * direction;
         } else {
             direction = glm::normalize(direction + mCamera.pixelWidth.scale * aside);
         }

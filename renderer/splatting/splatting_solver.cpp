@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <utility>
 
 namespace celadon {
 
@@ -83,6 +84,7 @@ SplatBackendKind SplattingSolver::measureFaster(const SolveInput& input,
     SolveInput whole = input;
     whole.interrupt = nullptr;
     gl::StageTimer unread = timer.sibling();
+    const bool collect = std::exchange(mCollect, false);
     SplatBackendKind faster = SplatBackendKind::Raster;
     Clock::duration least = Clock::duration::max();
     for (const SplatBackendKind kind : {SplatBackendKind::Raster, SplatBackendKind::Tiled}) {
@@ -100,13 +102,14 @@ SplatBackendKind SplattingSolver::measureFaster(const SolveInput& input,
             }
         }
     }
+    mCollect = collect;
     return faster;
 }
 
 void SplattingSolver::writeSolveBlock(const SolveInput& input) {
     blocks::SolveBlock block;
-    block.selection = glm::vec4(mSettings.alpha, mSettings.discontinuity, 0.0,
-                                mSettings.orientation ? 1.0 : 0.0);
+    block.selection =
+        glm::vec4(mSettings.alpha, mSettings.discontinuity, 0.0, mSettings.orientation ? 1.0 : 0.0);
     const gather::Knots& knots = input.materials.commonKnots();
     block.node = glm::vec4(knots.rangeMm, float(knots.segments), float(mSettings.sampleAngle),
                            float(mSettings.fineSpread));

@@ -26,8 +26,7 @@ public:
     /// @param view already of viewLevels(settings) levels
     /// @param shaders, maps, materials, view outlive the solver
     /// @param settings with backend Auto the first solve() measures raster and tiled, and stays
-    /// with
-    ///        the faster; so do later solvers of the same scheme in this process
+    ///        with the faster; so do later solvers of the same scheme in this process
     SplattingSolver(const gl::ShaderLibrary& shaders, std::span<const MaterialPointer> maps,
                     const GpuMaterials& materials, const SplattingBuffer& view,
                     const SplattingSettings& settings);

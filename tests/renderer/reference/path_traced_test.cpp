@@ -52,11 +52,11 @@ World bodyOf(std::vector<Part> parts) {
 }
 
 /// Seen from +z: `heightMm` fits the picture.
-CameraView viewFromAbove(const World& world, double heightMm, glm::ivec2 size) {
+CameraView viewFromAbove(double heightMm, glm::ivec2 size) {
     Camera camera;
     camera.eye = {0, 0, 200};
     camera.orthographicHeight = heightMm;
-    return makeCameraView(camera, size.x, size.y, world.sceneSphere);
+    return makeCameraView(camera, size.x, size.y);
 }
 
 struct Mean {
@@ -97,8 +97,7 @@ TEST(PathTraced, WithoutAbsorptionAConvexBodyInUniformLightGivesBackWhatEntersEv
     const PathTraced solver(world, {.medium = medium, .paths = 200000});
     const glm::ivec2 size(6, 6);
     // The middle of the disc, where a pixel is flat enough to be one place.
-    const PathTracedResult result =
-        solver.solve(viewFromAbove(world, 12, size), size, uniformLight(600));
+    const PathTracedResult result = solver.solve(viewFromAbove(12, size), size, uniformLight(600));
     const double expected = std::numbers::pi * diffuseTransmittance(kEta);
     const Mean mean = meanOf(result);
     for (int c = 0; c < 3; ++c) {
@@ -127,7 +126,7 @@ TEST(PathTraced, AThickWideSlabReflectsWhatTheHalfSpaceDoes) {
         const glm::ivec2 size(5, 5);
         const std::array lights{directionalLight({0, 0, -1}, {1, 2, 3})};
         const PathTracedResult result =
-            solver.solve(viewFromAbove(world, 44, size), size, lights); // 8 mm from the edges
+            solver.solve(viewFromAbove(44, size), size, lights); // 8 mm from the edges
         const subedit::RandomWalkResult walks =
             subedit::simulateRandomWalk(medium, {.walks = 200000});
         const Mean mean = meanOf(result);
@@ -149,7 +148,7 @@ struct Example {
     World world = bodyOf({{makeSphere(10, 30)}});
     Medium medium = subedit::mediumFromAlbedo({0.95, 0.9, 0.8}, {2.0, 1.5, 1.0}, kEta);
     glm::ivec2 size{12, 12};
-    CameraView view = viewFromAbove(world, 24, size);
+    CameraView view = viewFromAbove(24, size);
     std::array<Light, 1> lights{directionalLight({0.5, -0.3, -1})};
 
     [[nodiscard]] PathTracedResult solve(PathTracedSettings settings,
@@ -237,7 +236,7 @@ TEST(PathTraced, OverlappingBodiesAreOneAndOpaquePartsAbsorb) {
     const glm::ivec2 size(4, 4);
     const auto leftOf = [&](const World& world) {
         const PathTracedResult result = PathTraced(world, {.medium = medium, .paths = 60000})
-                                            .solve(viewFromAbove(world, 20, size), size, lights);
+                                            .solve(viewFromAbove(20, size), size, lights);
         EXPECT_LT(result.flux.lost.x / result.flux.entered.x, 1e-3);
         return result.flux.left.x;
     };
