@@ -192,6 +192,10 @@ std::string runBench(const gl::Context& context, const BenchRequest& request) {
                         settings.layers = true;
                         settings.statistics = true;
                         settings.splatting.backend = backend.kind;
+                        if (request.irradianceSize) {
+                            settings.splatting.irradianceSize = *request.irradianceSize;
+                            settings.splatting.refineShortRanges = false;
+                        }
                         const Camera camera =
                             chooseCamera(world, {}, static_cast<double>(size.x) / size.y);
                         FrameRenderer renderer(context, world, settings);

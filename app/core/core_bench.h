@@ -17,6 +17,7 @@ struct BenchRequest {
     std::vector<std::string> models{"vase", "sphere"};
     std::vector<std::string> materials{"marble", "marble_chessboard"}; ///< recipes
     std::vector<glm::ivec2> sizes{{800, 600}};
+    std::optional<int> irradianceSize; ///< N of the light views; else as each quality has it
     int repeats = 5;
     bool truth = false; ///< errors against image-reference, on the CPU, at 160 x 120
     std::optional<std::filesystem::path> pictures; ///< a folder for PFM files

@@ -42,6 +42,7 @@ void printHelp() {
                "  --model NAME,...      builtins: {}; default vase,sphere\n"
                "  --material NAME,...   recipes: {}; default marble,marble_chessboard\n"
                "  --size WxH,...        of the frame; default 800x600\n"
+               "  --irradiance-size N   texels on a side of a light view, whatever the quality\n"
                "  --repeats N           frames that are timed; the median counts; default 5\n"
                "  --truth               errors against the exact sum, which takes a while\n"
                "  --context KIND        auto, egl or osmesa; default auto\n"
@@ -84,6 +85,8 @@ int run(const std::vector<std::string>& words) {
                 request.sizes.push_back(
                     app::parseSize({option, size}, kMaxSide, 1LL * kMaxSide * kMaxSide));
             }
+        } else if (option == "--irradiance-size") {
+            request.irradianceSize = app::parseInteger(argument, 8, kMaxSide);
         } else if (option == "--repeats") {
             request.repeats = app::parseInteger(argument, 1, 1000);
         } else if (option == "--context") {
