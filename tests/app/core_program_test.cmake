@@ -6,7 +6,7 @@ cmake_minimum_required(VERSION 3.25)
 function(run)
     execute_process(COMMAND ${ARGN} WORKING_DIRECTORY "${WORK}"
         RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE error)
-    if(NOT result EQUAL 0 OR NOT error STREQUAL "")
+    if(NOT result EQUAL 0)
         message(FATAL_ERROR "${ARGN}: exit code ${result}\n${output}${error}")
     endif()
     set(output "${output}" PARENT_SCOPE)
