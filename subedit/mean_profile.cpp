@@ -188,7 +188,8 @@ MeanProfileSums::MeanProfileSums(const MaterialMap& map, std::span<const float> 
 }
 
 void MeanProfileSums::update(const MaterialMap& map, std::span<const float> effectiveRadiusMm,
-                             std::span<const TexelRect> rects) {
+                             std::span<const TexelRect> rects,
+                             const std::function<void(const TexelRect&)>& beforeTile) {
     CELADON_ASSERT(effectiveRadiusMm.size() ==
                    static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
     std::vector<int> tiles;
@@ -216,7 +217,12 @@ void MeanProfileSums::update(const MaterialMap& map, std::span<const float> effe
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), 4),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                           for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                              sumTile(map, effectiveRadiusMm, tiles[i]);
+                              const TexelRect tile = tileRect(map, tiles[i]);
+                              if (beforeTile) {
+                                  beforeTile(tile);
+                              }
+                              sumTile(map, effectiveRadiusMm, tile,
+                                      mTiles[static_cast<std::size_t>(tiles[i])]);
                           }
                       });
     tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
@@ -231,16 +237,20 @@ void MeanProfileSums::update(const MaterialMap& map, std::span<const float> effe
     });
 }
 
+TexelRect MeanProfileSums::tileRect(const MaterialMap& map, int tile) const {
+    const int x = tile % mTilesX * kTileSize;
+    const int y = tile / mTilesX * kTileSize;
+    return {x, y, std::min(map.width - x, kTileSize), std::min(map.height - y, kTileSize)};
+}
+
 void MeanProfileSums::sumTile(const MaterialMap& map, std::span<const float> effectiveRadiusMm,
-                              int tile) {
+                              const TexelRect& rect, Sum& result) {
     const auto stride = static_cast<std::size_t>(map.knots()) * 3;
     const float h = map.maxRadiusMm / static_cast<float>(map.segments);
-    const int left = tile % mTilesX * kTileSize;
-    const int top = tile / mTilesX * kTileSize;
     SampleArray sum{};
     TexelSampler sampler;
-    for (int y = top; y < std::min(map.height, top + kTileSize); ++y) {
-        for (int x = left; x < std::min(map.width, left + kTileSize); ++x) {
+    for (int y = rect.y; y < rect.bottom(); ++y) {
+        for (int x = rect.x; x < rect.right(); ++x) {
             const std::size_t texel =
                 static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
                 static_cast<std::size_t>(x);
@@ -249,7 +259,7 @@ void MeanProfileSums::sumTile(const MaterialMap& map, std::span<const float> eff
                         sum.data());
         }
     }
-    std::copy_n(sum.begin(), kSamples, mTiles[static_cast<std::size_t>(tile)].begin());
+    std::copy_n(sum.begin(), kSamples, result.begin());
 }
 
 MeanProfile MeanProfileSums::mean() const {

@@ -4,6 +4,7 @@
 #include "subedit/map/texel_rect.h"
 
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,8 @@ public:
     /// Both at once.
     [[nodiscard]] Point at(double r) const;
     [[nodiscard]] std::span<const double> samples() const { return mSamples; }
+    /// energyBeyond() at the samples.
+    [[nodiscard]] std::span<const double> samplesBeyond() const { return mBeyond; }
 
 private:
     std::vector<double> mSamples;
@@ -50,14 +53,19 @@ public:
     MeanProfileSums(const MaterialMap& map, std::span<const float> effectiveRadiusMm);
 
     /// Texels of `rects` have changed: the same bits as sums made anew.
+    /// @param beforeTile called on any thread with each tile that will be summed: radii may be
+    ///                   brought up to date there, while the tile's profiles are at hand
     void update(const MaterialMap& map, std::span<const float> effectiveRadiusMm,
-                std::span<const TexelRect> rects);
+                std::span<const TexelRect> rects,
+                const std::function<void(const TexelRect&)>& beforeTile = {});
 
     [[nodiscard]] MeanProfile mean() const;
 
 private:
     using Sum = std::array<float, kMeanProfileIntervals + 1>;
-    void sumTile(const MaterialMap& map, std::span<const float> effectiveRadiusMm, int tile);
+    [[nodiscard]] TexelRect tileRect(const MaterialMap& map, int tile) const;
+    static void sumTile(const MaterialMap& map, std::span<const float> effectiveRadiusMm,
+                        const TexelRect& rect, Sum& result);
 
     int mTilesX = 0;
     int mTilesY = 0;

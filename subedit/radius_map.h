@@ -29,9 +29,10 @@ effectiveRadiusMaps(const MaterialMap& map, std::span<const double> energyFracti
                                                     double energyFraction = 0.95);
 
 /// The texels of `rect` of an effectiveRadiusMap(), anew: the same bits as the whole map would get.
+/// On the calling thread: from several at once, with rectangles that do not meet.
 /// @param radiusMm [height][width], as effectiveRadiusMap() returned it
-void updateEffectiveRadiusMap(const MaterialMap& map, const TexelRect& rect, double energyFraction,
-                              std::span<float> radiusMm);
+void updateEffectiveRadii(const MaterialMap& map, const TexelRect& rect, double energyFraction,
+                          std::span<float> radiusMm);
 
 /// Diffuse albedo of every texel, [height][width][3].
 [[nodiscard]] std::vector<float> albedoMap(const MaterialMap& map);

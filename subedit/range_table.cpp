@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 namespace celadon::subedit {
 
@@ -32,16 +31,6 @@ double largestSamplingError(const MeanProfile& profile, double T) {
         highest = std::max(highest, std::max(start, end) + bulge);
     }
     return (variation + highest) / T;
-}
-
-/// Integrals of P r dr from each sample of a profile to 1.
-std::vector<double> energiesBeyond(const MeanProfile& profile) {
-    const auto count = profile.samples().size();
-    std::vector<double> beyond(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        beyond[i] = profile.energyBeyond(static_cast<double>(i) / static_cast<double>(count - 1));
-    }
-    return beyond;
 }
 
 constexpr int kMostPhases = 256;
@@ -97,7 +86,6 @@ double minimalRadius(const MeanProfile& profile, double T, double epsilon) {
     // out.
     const int phases = std::clamp(static_cast<int>(std::ceil(1024.0 / T)), 16, kMostPhases);
     const double step = 1.0 / T;
-    const std::vector<double> beyond = energiesBeyond(profile);
     std::array<double, kLanes> offset;
     std::array<double, kLanes> sum{};
     std::array<double, kLanes> error;
@@ -114,7 +102,7 @@ double minimalRadius(const MeanProfile& profile, double T, double epsilon) {
         if (count == 0) {
             return 0.0;
         }
-        addTerm(profile.samples().data(), beyond.data(),
+        addTerm(profile.samples().data(), profile.samplesBeyond().data(),
                 static_cast<int>(profile.samples().size()) - 1, offset.data(), count, top, step,
                 sum.data(), error.data());
         if (m == 0) {

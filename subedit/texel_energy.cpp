@@ -55,8 +55,17 @@ TexelEnergy::TexelEnergy(int segments) : mSegments(segments) {
 void TexelEnergy::compute(const float* logProfile) {
     const int count = mSegments * 3;
     computeEnergies(logProfile, count, mIndex.data(), mValue.data(), mEnergy.data());
+    addUp();
+}
+
+void TexelEnergy::computeFirst(const float* logProfile) {
+    computeEnergies(logProfile, 3, mIndex.data(), mValue.data(), mEnergy.data());
+    addUp();
+}
+
+void TexelEnergy::addUp() {
     mTotal = {};
-    for (int i = 0; i < count; i += 3) {
+    for (int i = 0; i < mSegments * 3; i += 3) {
         mTotal[0] += mEnergy[i];
         mTotal[1] += mEnergy[i + 1];
         mTotal[2] += mEnergy[i + 2];
@@ -80,6 +89,14 @@ float TexelEnergy::channelRadius(const float* logProfile, int channel, float fra
     float remaining = mTotal[channel] * fraction;
     const int k = segmentHolding(channel, remaining);
     return static_cast<float>(k) + invert(logProfile, k, channel, remaining);
+}
+
+float TexelEnergy::radiusBound(int channel, float fraction, float blackTotal) const {
+    if (mTotal[channel] < blackTotal) {
+        return 0.0f;
+    }
+    float remaining = mTotal[channel] * fraction;
+    return static_cast<float>(segmentHolding(channel, remaining) + 1);
 }
 
 float TexelEnergy::radius(const float* logProfile, float fraction, float blackTotal) const {

@@ -21,6 +21,8 @@ public:
 
     /// @param logProfile (segments + 1) x 3 values of ln P, channel fastest
     void compute(const float* logProfile);
+    /// The same bits, where only the first knot is another than it was.
+    void computeFirst(const float* logProfile);
 
     [[nodiscard]] float total(int channel) const {
         return mTotal[static_cast<std::size_t>(channel)];
@@ -37,6 +39,9 @@ public:
     [[nodiscard]] float channelRadius(const float* logProfile, int channel, float fraction,
                                       float blackTotal) const;
 
+    /// The end of the segment in which channelRadius() lies: at most a segment above it, quicker.
+    [[nodiscard]] float radiusBound(int channel, float fraction, float blackTotal) const;
+
     /// Largest of the channels' radii in units of h; 0 when all are black.
     [[nodiscard]] float radius(const float* logProfile, float fraction, float blackTotal) const;
 
@@ -46,6 +51,7 @@ public:
     }
 
 private:
+    void addUp();
     /// The segment in which the energy up to it exceeds `remaining`, which becomes what is left
     /// for that segment.
     [[nodiscard]] int segmentHolding(int channel, float& remaining) const;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "subedit/document/edit_command.h"
+#include "subedit/document/profile_arena.h"
 #include "subedit/edit/apply_operator.h"
 #include "subedit/edit/grow_radius.h"
 #include "subedit/map/material_map.h"
@@ -146,6 +147,7 @@ private:
     std::size_t mTrimmed = 0;     ///< entries that keep only what is irreplaceable
     std::size_t mBeforeBytes = 0; ///< of all profiles that entries keep
     std::unique_ptr<OpenStroke> mStroke;
+    ProfileArena mSetAside; ///< by the open stroke; its memory serves the next one
 
     std::vector<TexelRect> mChanged; ///< within each tile
     bool mLayoutChanged = false;

@@ -26,7 +26,7 @@ void Document::OpenStroke::forget() {
     for (auto& tile : tiles) {
         tile.reset();
     }
-    setAside.reset(layoutOf(owner.material()).values());
+    owner.mSetAside.reset(layoutOf(owner.material()).values());
     prepare();
 }
 
@@ -65,7 +65,7 @@ void Document::OpenStroke::save(std::span<const std::size_t> texels) {
         }
         float*& before = tile->before[WeightMask::cell(x, y)];
         if (before == nullptr) {
-            before = setAside.take();
+            before = owner.mSetAside.take();
             copies.push_back({texel, before});
         }
     }

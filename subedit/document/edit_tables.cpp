@@ -2,8 +2,6 @@
 
 #include "subedit/radius_map.h"
 
-#include <tbb/parallel_for.h>
-
 namespace celadon::subedit {
 
 EditTables::EditTables(const MaterialMap& map, double energyFraction, double epsilon)
@@ -15,10 +13,14 @@ void EditTables::update(const MaterialMap& map, std::span<const TexelRect> rects
     if (rects.empty()) {
         return;
     }
-    tbb::parallel_for(std::size_t{0}, rects.size(), [&](std::size_t i) {
-        updateEffectiveRadiusMap(map, rects[i], mEnergyFraction, mRadius);
+    mSums->update(map, mRadius, rects, [&](const TexelRect& tile) {
+        for (const TexelRect& rect : rects) {
+            const TexelRect both = intersect(tile, rect);
+            if (!both.isEmpty()) {
+                updateEffectiveRadii(map, both, mEnergyFraction, mRadius);
+            }
+        }
     });
-    mSums->update(map, mRadius, rects);
     mRangeTable.reset();
 }
 

@@ -2,7 +2,6 @@
 
 #include "subedit/document/document.h"
 #include "subedit/document/history_entry.h"
-#include "subedit/document/profile_arena.h"
 
 #include <array>
 #include <cstdint>
@@ -36,7 +35,6 @@ struct Document::OpenStroke : ProfileSource {
             outcome; ///< 1 energy clamped, 2 range clamped
     };
     std::vector<std::unique_ptr<Tile>> tiles;
-    ProfileArena setAside;
     std::unique_ptr<PreparedOperator> prepared;
 };
 

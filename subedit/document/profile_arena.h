@@ -1,18 +1,20 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <vector>
 
 /// Room for profiles that a stroke sets aside one by one, close together; none moves while others
-/// come.
+/// come. What one stroke has taken serves the next: fresh memory costs more than the copy into it.
 namespace celadon::subedit {
 
 class ProfileArena {
 public:
-    /// Forgets all that was taken. @param values of a profile
+    /// Forgets all that was taken, and gives back what a usual stroke does not need.
+    /// @param values of a profile
     void reset(std::size_t values) {
-        mChunks.clear();
+        mChunks.resize(values == mValues ? std::min(mChunks.size(), kChunksKept) : 0);
         mValues = values;
         mTaken = 0;
     }
@@ -27,6 +29,7 @@ public:
 
 private:
     static constexpr std::size_t kProfilesPerChunk = 1024;
+    static constexpr std::size_t kChunksKept = 16; ///< five dabs of 64 x 64 texels or so
     std::vector<std::unique_ptr<float[]>> mChunks;
     std::size_t mValues = 0;
     std::size_t mTaken = 0;

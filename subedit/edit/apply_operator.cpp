@@ -208,7 +208,9 @@ struct OperatorVisitor {
     void scaleRange(glm::vec3 scale) const {
         const glm::vec3 albedo = editor.albedo();
         for (int c = 0; c < 3; ++c) {
-            if (scale[c] > 1.0f) {
+            // Only a profile whose bound leaves r_s can need more than there is.
+            if (scale[c] > 1.0f &&
+                scale[c] * editor.radiusBoundMm(c, kHeldEnergy) > prepared.mLayout.maxRadiusMm) {
                 const float held = editor.radiusMm(c, kHeldEnergy);
                 if (scale[c] * held > prepared.mLargestRadiusMm) {
                     outcome.rangeClamped = true;

@@ -92,12 +92,7 @@ std::vector<float> resampleProfile(const StoredProfile& profile, const ProfileLa
                         result.values() + c, layout.segments, layout.spacingMm());
     }
     result.measure();
-    for (int c = 0; c < 3; ++c) {
-        if (!result.isBlack(c)) {
-            result.fitFirstKnot(c, source.albedo()[c]);
-        }
-    }
-    result.measure();
+    result.fitFirstKnots(source.albedo());
     for (int c = 0; c < 3; ++c) {
         if (!result.isBlack(c)) {
             result.setAlbedo(c, source.albedo()[c]);
@@ -126,9 +121,20 @@ void ProfileEditor::load(const float* logProfile) {
 
 void ProfileEditor::measure() {
     mEnergy.compute(mValues.data());
+    takeAlbedo();
+}
+
+void ProfileEditor::takeAlbedo() {
     for (int c = 0; c < 3; ++c) {
         mAlbedo[c] = mEnergy.albedo(c, mLayout.spacingMm());
     }
+}
+
+float ProfileEditor::radiusBoundMm(int channel, float fraction) const {
+    const float h = mLayout.spacingMm();
+    return isBlack(channel)
+               ? 0.0f
+               : h * mEnergy.radiusBound(channel, fraction, TexelEnergy::blackTotal(h));
 }
 
 float ProfileEditor::radiusMm(int channel, float fraction) const {
@@ -190,12 +196,7 @@ void ProfileEditor::scaleRange(const glm::vec3& scale) {
         return;
     }
     measure();
-    for (int c = 0; c < 3; ++c) {
-        if (scale[c] != 1.0f && !isBlack(c)) {
-            fitFirstKnot(c, albedo[c]);
-        }
-    }
-    measure();
+    fitFirstKnots(albedo);
     for (int c = 0; c < 3; ++c) {
         if (mAlbedo[c] != albedo[c] && !isBlack(c)) {
             setAlbedo(c, albedo[c]);
@@ -203,17 +204,28 @@ void ProfileEditor::scaleRange(const glm::vec3& scale) {
     }
 }
 
-void ProfileEditor::fitFirstKnot(int channel, float albedo) {
-    float& l0 = mValues[static_cast<std::size_t>(channel)];
-    const float l1 = mValues[static_cast<std::size_t>(3 + channel)];
+void ProfileEditor::fitFirstKnots(const glm::vec3& albedo) {
     const float h = mLayout.spacingMm();
-    const FirstSegment segment = firstSegment(l0, l1);
-    const float first = fastExp(segment.logEnergy);
-    const float rest = mEnergy.total(channel) - first;
-    const float wanted = albedo / (2.0f * std::numbers::pi_v<float> * h * h) - rest;
-    // A first segment of a tenth or ten times the energy is no longer the same profile.
-    if (wanted > 0.1f * first && wanted < 10.0f * first) {
-        l0 = solveFirstKnot(l0, l1, segment, fastLog(wanted));
+    bool isChanged = false;
+    for (int c = 0; c < 3; ++c) {
+        if (isBlack(c) || mAlbedo[c] == albedo[c]) {
+            continue;
+        }
+        float& l0 = mValues[static_cast<std::size_t>(c)];
+        const float l1 = mValues[static_cast<std::size_t>(3 + c)];
+        const FirstSegment segment = firstSegment(l0, l1);
+        const float first = fastExp(segment.logEnergy);
+        const float rest = mEnergy.total(c) - first;
+        const float wanted = albedo[c] / (2.0f * std::numbers::pi_v<float> * h * h) - rest;
+        // A first segment of a tenth or ten times the energy is no longer the same profile.
+        if (wanted > 0.1f * first && wanted < 10.0f * first) {
+            l0 = solveFirstKnot(l0, l1, segment, fastLog(wanted));
+            isChanged = true;
+        }
+    }
+    if (isChanged) {
+        mEnergy.computeFirst(mValues.data());
+        takeAlbedo();
     }
 }
 

@@ -58,20 +58,25 @@ public:
     [[nodiscard]] bool isBlack(int channel) const { return mAlbedo[channel] < kBlackAlbedo; }
     /// Radius that holds this part of a channel's energy, mm; 0 if it is black.
     [[nodiscard]] float radiusMm(int channel, float fraction) const;
+    /// A radius that holds as much or more, at most a segment beyond: quicker.
+    [[nodiscard]] float radiusBoundMm(int channel, float fraction) const;
 
     /// Scales P so that a channel has this albedo. A black channel first takes its shape from the
     /// brightest other one, or an exponential if there is none.
     void setAlbedo(int channel, float albedo);
     /// P(r / s) / s^2 in each channel, at the same albedo. Without effect on a black channel.
     void scaleRange(const glm::vec3& scale);
-    /// The first knot becomes what gives the channel this albedo, all others staying: what a
-    /// profile that falls steeply at first needs after its knots have moved. Where no such knot
-    /// exists, and in any case for the last digits, P is scaled instead.
-    void fitFirstKnot(int channel, float albedo);
+    /// The first knots become what gives the channels these albedos, all others staying: what a
+    /// profile that falls steeply at first needs after its knots have moved. Black channels, and
+    /// those that have their albedo, are left alone. Where no such knot exists, and in any case for
+    /// the last digits, P is scaled afterwards.
+    void fitFirstKnots(const glm::vec3& albedo);
     /// `values()` were written to: measures anew.
     void measure();
 
 private:
+    void takeAlbedo();
+
     ProfileLayout mLayout;
     TexelEnergy mEnergy;
     glm::vec3 mAlbedo{0.0f};

@@ -31,4 +31,12 @@ struct TexelRect {
     return {x, y, std::max(a.right(), b.right()) - x, std::max(a.bottom(), b.bottom()) - y};
 }
 
+/// What both hold.
+[[nodiscard]] inline TexelRect intersect(const TexelRect& a, const TexelRect& b) {
+    const int x = std::max(a.x, b.x);
+    const int y = std::max(a.y, b.y);
+    return {x, y, std::max(std::min(a.right(), b.right()) - x, 0),
+            std::max(std::min(a.bottom(), b.bottom()) - y, 0)};
+}
+
 } // namespace celadon::subedit

@@ -47,9 +47,7 @@ StrokeMask::StrokeMask(const Surface& surface, const Brush& brush, const Mirror&
     : mSurface(surface),
       mBrush(brush),
       mMirror(mirror),
-      mWeights((surface.texelCount() + kTileTexels - 1) / kTileTexels),
-      mChangeStamp(surface.texelCount(), 0),
-      mVisitStamp(surface.texelCount(), 0) {
+      mTiles((surface.texelCount() + kTileTexels - 1) / kTileTexels) {
     CELADON_ASSERT(brush.radiusMm > 0.0f && brush.spacing > 0.0f);
 }
 
@@ -58,8 +56,16 @@ float StrokeMask::weight(Texel texel) const {
     if (source == Surface::kNone) {
         return 0.0f;
     }
-    const Tile* tile = mWeights[source / kTileTexels].get();
-    return tile == nullptr ? 0.0f : (*tile)[source % kTileTexels];
+    const Tile* tile = mTiles[source / kTileTexels].get();
+    return tile == nullptr ? 0.0f : tile->weight[source % kTileTexels];
+}
+
+StrokeMask::Tile& StrokeMask::tileOf(Texel texel) {
+    std::unique_ptr<Tile>& tile = mTiles[texel / kTileTexels];
+    if (tile == nullptr) {
+        tile = std::make_unique<Tile>();
+    }
+    return *tile;
 }
 
 std::vector<StrokeMask::Texel> StrokeMask::takeChanged() {
@@ -161,7 +167,7 @@ void StrokeMask::addDab(const Dab& dab) {
     const float reach = radius + mSurface.texelSizeMm();
     ++mVisitRound;
     mFront.assign(1, *seed);
-    mVisitStamp[*seed] = mVisitRound;
+    tileOf(*seed).visited[*seed % kTileTexels] = mVisitRound;
     for (std::size_t i = 0; i < mFront.size(); ++i) {
         const Texel texel = mFront[i];
         const float distance = glm::distance(mSurface.positionMm(texel), dab.centerMm);
@@ -169,28 +175,27 @@ void StrokeMask::addDab(const Dab& dab) {
         const float amount =
             dab.flow * falloff(distance / radius, mBrush.hardness) * facingWeight(cosine);
         if (amount > 0.0f) {
-            auto& tile = mWeights[texel / kTileTexels];
-            if (tile == nullptr) {
-                tile = std::make_unique<Tile>();
-                tile->fill(0.0f);
-            }
-            float& weight = (*tile)[texel % kTileTexels];
+            Tile& tile = tileOf(texel);
+            float& weight = tile.weight[texel % kTileTexels];
             if (weight < mBrush.opacity) {
                 weight = std::min(weight + amount * (mBrush.opacity - weight), mBrush.opacity);
-                if (mChangeStamp[texel] != mChangeRound) {
-                    mChangeStamp[texel] = mChangeRound;
+                std::uint32_t& changed = tile.changed[texel % kTileTexels];
+                if (changed != mChangeRound) {
+                    changed = mChangeRound;
                     mChanged.push_back(texel);
                 }
             }
         }
         mSurface.forEachNeighbor(texel, [&](Texel neighbor) {
-            if (mVisitStamp[neighbor] == mVisitRound ||
-                glm::dot(mSurface.normal(neighbor), dab.normal) <= 0.0f ||
-                glm::distance(mSurface.positionMm(neighbor), dab.centerMm) > reach) {
+            std::uint32_t& visited = tileOf(neighbor).visited[neighbor % kTileTexels];
+            if (visited == mVisitRound) {
                 return;
             }
-            mVisitStamp[neighbor] = mVisitRound;
-            mFront.push_back(neighbor);
+            visited = mVisitRound; // or found too far: once is enough
+            if (glm::dot(mSurface.normal(neighbor), dab.normal) > 0.0f &&
+                glm::distance(mSurface.positionMm(neighbor), dab.centerMm) <= reach) {
+                mFront.push_back(neighbor);
+            }
         });
     }
 }

@@ -45,16 +45,20 @@ private:
     void addDab(const Dab& dab);
 
     static constexpr int kTileTexels = 1024;
-    using Tile = std::array<float, kTileTexels>; ///< of consecutive texels
+    /// What is known of consecutive texels; made where a dab comes by.
+    struct Tile {
+        std::array<float, kTileTexels> weight{};
+        std::array<std::uint32_t, kTileTexels> changed{}; ///< the takeChanged() it is listed for
+        std::array<std::uint32_t, kTileTexels> visited{}; ///< the dab that reached it last
+    };
+    [[nodiscard]] Tile& tileOf(Texel texel);
 
     const Surface& mSurface;
     Brush mBrush;
     Mirror mMirror;
-    std::vector<std::unique_ptr<Tile>> mWeights;
+    std::vector<std::unique_ptr<Tile>> mTiles;
     std::vector<Texel> mChanged;
-    std::vector<std::uint32_t> mChangeStamp; ///< per texel: the takeChanged() it is listed for
     std::uint32_t mChangeRound = 1;
-    std::vector<std::uint32_t> mVisitStamp; ///< per texel: the dab that reached it last
     std::uint32_t mVisitRound = 0;
     std::vector<Texel> mFront;
 

@@ -4,6 +4,7 @@
 #include "subedit/models/dipole.h"
 #include "subedit/presets.h"
 #include "subedit/radius_map.h"
+#include "subedit/texel_energy.h"
 #include "tests/subedit/support/profiles.h"
 
 #include <gtest/gtest.h>
@@ -90,6 +91,31 @@ TEST(EffectiveRadius, BlackChannelsHaveNoRange) {
 
     std::fill(map.logProfile.begin(), map.logProfile.end(), kLogProfileFloor);
     EXPECT_GT(effectiveRadiusMap(map).front(), 0.0f) << "a divisor in the renderer";
+}
+
+TEST(TexelEnergy, OfAnotherFirstKnotIsThatComputedAnew) {
+    MaterialMap map = test::varyingMaterial(8, 8, 24);
+    TexelEnergy changed(map.segments);
+    TexelEnergy anew(map.segments);
+    for (std::size_t i = 0; i < map.logProfile.size();
+         i += static_cast<std::size_t>(map.knots()) * 3) {
+        float* profile = map.logProfile.data() + i;
+        changed.compute(profile);
+        profile[0] += 0.7f;
+        profile[2] -= 0.2f;
+        changed.computeFirst(profile);
+        anew.compute(profile);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_EQ(changed.total(c), anew.total(c));
+            for (const float fraction : {0.01f, 0.5f, 0.95f, 0.999f}) {
+                const float radius = anew.channelRadius(profile, c, fraction, 0.0f);
+                EXPECT_EQ(changed.channelRadius(profile, c, fraction, 0.0f), radius);
+                const float bound = anew.radiusBound(c, fraction, 0.0f);
+                EXPECT_GE(bound, radius);
+                EXPECT_LE(bound, radius + 1.0f);
+            }
+        }
+    }
 }
 
 TEST(RadiusMap, AgreesWithTheDoublePrecisionRadii) {
