@@ -164,6 +164,43 @@ TEST(QuantizedDiffusion, GaussiansSumToTheBeam) {
     }
 }
 
+TEST(GrosjeanMedium, WhatTheSurfaceReflectsGoesBackAndTheRestLeaves) {
+    // Radiance within is (fluence + 3 mu flux) / 4 pi. At the surface, where fluence is z_b / D
+    // times the flux, what F_r lets through must be all of the flux, and is what C_phi and C_E say.
+    for (const double eta : {1.0, 1.3, 1.5, 2.0}) {
+        const GrosjeanMedium m(0.3, 1.0, eta);
+        const double fluence = m.extrapolationMm / m.diffusion;
+        double leaves = 0.0;
+        constexpr int kSteps = 20000;
+        for (int i = 0; i < kSteps; ++i) {
+            const double mu = (i + 0.5) / kSteps;
+            leaves += (1.0 - fresnelReflectance(mu, 1.0 / eta)) * mu * 0.5 * (fluence + 3.0 * mu) /
+                      kSteps;
+        }
+        EXPECT_NEAR(leaves, 1.0, 1e-5) << eta;
+        EXPECT_NEAR(m.fluenceFactor * fluence + m.irradianceFactor, 1.0, 1e-9) << eta;
+    }
+}
+
+TEST(QuantizedDiffusion, AMediumThatDoesNotAbsorbReturnsAllOfTheDiffusedLight) {
+    // At alpha' = 1 each source along the beam, with its mirror image, causes over the whole
+    // surface the fluence z_b / D and the flux 1, whatever its depth: all of it leaves. Another
+    // sign of the mirrored beam's flux would return 0.5 to 0.85 of it.
+    for (const double eta : {1.0, 1.3, 1.5, 2.0}) {
+        const Medium medium{glm::dvec3(0.0), {0.1, 1.0, 10.0}, eta};
+        const RadialCurves curves = quantizedDiffusionProfile(medium);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const SingleScattering single(0.0, medium.reducedScattering[static_cast<int>(c)], eta);
+            const RadialCurve first =
+                integrateCurve([&](double r) { return single.reflectance(r); },
+                               1.0 / medium.reducedScattering[static_cast<int>(c)]);
+            // Quanta end at a spread of 10^4 mean free paths. Of what spreads farther some
+            // (1 + z_b) / 10^4 mean free paths is left out, 1.3e-3 at eta = 2.
+            EXPECT_NEAR(curves[c].total - first.total, 1.0, 2e-3) << eta << ' ' << c;
+        }
+    }
+}
+
 TEST(QuantizedDiffusion, ScaledErfcIsContinuous) {
     EXPECT_NEAR(scaledErfc(0.0), 1.0, 1e-15);
     EXPECT_NEAR(scaledErfc(20.0 - 1e-9) / scaledErfc(20.0), 1.0, 1e-9);
