@@ -12,18 +12,6 @@
 /// of nodes, cones and angles.
 namespace celadon::loaders {
 
-/// What one element of an accessor is made of.
-struct GltfElement {
-    int components = 0;
-    int componentBytes = 0;
-    int columns = 1;                        ///< of a matrix; its columns start at multiples of 4
-    [[nodiscard]] int bytes() const;        ///< of the element, tightly packed
-    [[nodiscard]] int columnStride() const; ///< bytes from one column to the next
-};
-
-/// `type` as glTF has it ("VEC3"), `componentType` as GL has it (5126); zeros when unknown.
-[[nodiscard]] GltfElement gltfElement(const std::string& type, std::int64_t componentType);
-
 /// Version 2, and extensions that are required are among those we have.
 /// @throws InputError that names every one we lack
 void checkGltfVersion(const JsonElement& root);
