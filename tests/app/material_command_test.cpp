@@ -48,6 +48,24 @@ TEST_F(MaterialCommand, BakeTakesCoefficients) {
                   HasSubstr("--roughness"));
 }
 
+TEST_F(MaterialCommand, OutputsOfAnotherKindAreRefusedBeforeTheWork) {
+    test::writeText(folder / "o.json", R"({"subsurface_color": [0.8, 0.5, 0.4]})");
+    test::writeText(folder / "r.csv", "x_i,y_i,x_o,y_o,r\n");
+    test::writeText(folder / "s.json", R"({"commands": []})");
+    for (const Words& words : {Words{"bake", "--recipe", "jade"}, Words{"convert", "jade"},
+                               Words{"import", file("o.json")}, Words{"fit", file("r.csv")},
+                               Words{"edit", "jade", "--strokes", file("s.json")}}) {
+        Words wrong = words;
+        wrong.insert(wrong.end(), {"-o", file("x.png")});
+        expectRefused(wrong, 2,
+                      AllOf(HasSubstr(file("x.png")), HasSubstr("end it in .subedit.exr")));
+        EXPECT_FALSE(std::filesystem::exists(folder / "x.png"));
+        expectRefused(words, 2, HasSubstr("-o is missing"));
+    }
+    expectDone({"convert", "jade", "--size", "4", "-o", file("UPPER.EXR")});
+    EXPECT_EQ(readMaterial(folder / "UPPER.EXR").width, 4);
+}
+
 TEST_F(MaterialCommand, BakeRespectsTheColorSpaceThatIsSaid) {
     test::writeText(folder / "a.ppm", "P6 1 1 255\n\xbc\xbc\xbc");
     const auto albedo = [&](const char* space) {
