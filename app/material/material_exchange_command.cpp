@@ -97,7 +97,7 @@ json exportGltf(const ExportOptions& options, const NearestParameters& nearest,
                          "write it beside the other");
     }
     json document = readJson(options.into);
-    mergeGltfMaterial(document, options.gltfMaterial, made);
+    mergeGltfMaterial(document, options.into, options.gltfMaterial, made);
     return document;
 }
 

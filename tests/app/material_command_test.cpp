@@ -201,6 +201,18 @@ TEST_F(MaterialCommand, ExportIntoAGltf) {
                    "/tmp/elsewhere.gltf"},
                   2, HasSubstr("another folder"));
     expectRefused({"export", "jade", "--into", file("m.gltf")}, 2, HasSubstr("--into"));
+    const auto refusesInto = [&](const std::string& name, const std::string& says) {
+        expectRefused({"export", "jade", "--convention", "gltf", "--into", file(name),
+                       "--gltf-material", "hair", "-o", file("out.gltf")},
+                      3, AllOf(HasSubstr("'" + file(name) + "'"), HasSubstr(says)));
+    };
+    refusesInto("m.gltf", "has no material 'hair' among its 1");
+    test::writeText(folder / "old.gltf", R"({"asset":{"version":"1.0"}})");
+    refusesInto("old.gltf", "is glTF \"1.0\", not 2.0");
+    test::writeText(folder / "odd.gltf", R"({"asset":{"version":"2.0"},"materials":[7]})");
+    refusesInto("odd.gltf", "is not laid out as glTF 2.0 is");
+    test::writeText(folder / "none.gltf", "[]");
+    refusesInto("none.gltf", "is not laid out as glTF 2.0 is");
 }
 
 } // namespace
