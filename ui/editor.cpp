@@ -103,7 +103,7 @@ Editor::Editor(const EditorOptions& options)
       mTools(mSession),
       mOpen(mSession),
       mJournal(stateFolder()),
-      mFiles(mSession, mOpen, mPreferences, mJournal, mScript.isUnattended()),
+      mFiles(mSession, mOpen, mPreferences, mScript.isUnattended()),
       mJobs(mWindow.jobsWindow(), [] { Window::wake(); }),
       mThumbnails(mJobs, cacheFolder() / "thumbnails"),
       mTruth(mJobs) {
@@ -126,6 +126,11 @@ void Editor::keepJournal() {
             }
         }
     });
+    mSession.beforeWriting = [this](const std::filesystem::path& file) {
+        if (const auto problem = mJournal.keep(file)) {
+            mSession.notify(Notice::Kind::Warning, *problem);
+        }
+    };
 }
 
 /// What concerns the window only, so that replays can show every panel.
@@ -317,7 +322,8 @@ void Editor::poll() {
                             "A file changed on disk; it is not read again, since the material has "
                             "changes that are not saved");
         } else {
-            mOpen.start(mSession.opened());
+            // As the files are now, even if a recovery opened them as they had been.
+            mOpen.start({mSession.opened().model, mSession.opened().material});
         }
         mFramesToDraw = kSettlingFrames;
     }
