@@ -127,7 +127,7 @@ void edit(EditOptions o) {
         options.model = request.model;
         options.material =
             request.material.empty() ? std::nullopt : std::optional(request.material);
-        return readWorld(options, 0, request.readInstead);
+        return readWorld(options, 0);
     };
     e.services.describeMaterial = [](const subedit::MaterialMap& map,
                                      const std::string& reference) {

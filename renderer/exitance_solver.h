@@ -5,8 +5,10 @@
 #include "renderer/output/frame_stats.h"
 #include "renderer/scene/camera.h"
 #include "renderer/scene/world.h"
+#include "subedit/map/texel_rect.h"
 
 #include <atomic>
+#include <cstdint>
 #include <span>
 
 /// The one seam of the renderer: lit geometry, view and material in, radiant exitance B of every
@@ -28,10 +30,17 @@ struct SolveInput {
     /// Set from another thread when nobody waits for the result any more: a solver may then return
     /// early, with anything. Null: never.
     const std::atomic<bool>* interrupt = nullptr;
+    std::uint64_t geometry = 0; ///< another number once vertices have moved
 
     [[nodiscard]] bool isInterrupted() const {
         return interrupt != nullptr && interrupt->load(std::memory_order_relaxed);
     }
+};
+
+struct MaterialChange {
+    int material = 0;
+    subedit::TexelRect rect;
+    float largestLogP = 0.0f; ///< within the rectangle
 };
 
 class ExitanceSolver {
@@ -47,8 +56,8 @@ public:
     ///              "splatting N", "accumulation", as far as the solver has them
     virtual const gl::Texture& solve(const SolveInput& input, gl::StageTimer& timer) = 0;
 
-    /// Texels of the materials were edited in place, and some P is larger than any was.
-    virtual void materialsChanged() {}
+    /// Texels of a material were edited in place.
+    virtual void materialChanged(const MaterialChange&) {}
 
     /// Samples, pairs and flux of the last solve. May read back: not within a timed frame.
     virtual void report(FrameStats& stats) = 0;

@@ -41,15 +41,32 @@ StageMilliseconds sumStages(const std::vector<gl::StageTime>& stages, int splatt
     return sum;
 }
 
-/// All that direct light depends on besides the world and the settings.
+/// All that the visible surface depends on besides the world and the settings.
+std::vector<double> viewKey(const Camera& camera) {
+    const glm::dvec3& eye = camera.eye;
+    const glm::dvec3& at = camera.at;
+    const glm::dvec3& up = camera.up;
+    return {eye.x,
+            eye.y,
+            eye.z,
+            at.x,
+            at.y,
+            at.z,
+            up.x,
+            up.y,
+            up.z,
+            camera.fovYDegrees,
+            camera.orthographicHeight.value_or(-1.0)};
+}
+
+/// The same for direct light.
 std::vector<double> directLightKey(const Camera& camera, std::span<const Light> lights) {
-    std::vector<double> key;
-    const auto add = [&key](const glm::dvec3& v) { key.insert(key.end(), {v.x, v.y, v.z}); };
-    add(camera.eye);
-    add(camera.at);
-    add(camera.up);
-    key.push_back(camera.fovYDegrees);
-    key.push_back(camera.orthographicHeight.value_or(-1.0));
+    std::vector<double> key = viewKey(camera);
+    const auto add = [&key](const glm::dvec3& v) {
+        for (int c = 0; c < 3; ++c) {
+            key.push_back(v[c]);
+        }
+    };
     for (const Light& light : lights) {
         key.push_back(static_cast<double>(light.kind));
         add(light.position);
@@ -133,6 +150,8 @@ struct FrameRenderer::Passes {
     CameraView cameraView;
     const gl::Texture* exitance = nullptr;
     const gl::Texture* color = nullptr;
+    std::uint64_t geometry = 0;    ///< as SolveInput
+    std::vector<double> drawnKey;  ///< what the view was drawn for
     std::vector<double> shadedKey; ///< what the direct light was shaded for
 };
 
@@ -144,15 +163,24 @@ bool FrameRenderer::Passes::draw(const Camera& camera, std::span<const Light> ow
     materials.bind();
     {
         const auto scope = timer.measure("splattingBuffer");
-        view.draw(gpuWorld, cameraView);
+        // While only materials change, as under a brush, the same surface is seen.
+        std::vector<double> key = viewKey(camera);
+        if (key == drawnKey) {
+            view.bind(gpuWorld);
+            view.refreshRadii();
+        } else {
+            view.draw(gpuWorld, cameraView);
+            drawnKey = std::move(key);
+        }
     }
-    const SolveInput input{world, gpuWorld, materials, view, cameraView, lights, interrupt};
+    const SolveInput input{world,      gpuWorld, materials, view,
+                           cameraView, lights,   interrupt, geometry};
     exitance = &solver->solve(input, timer);
     if (input.isInterrupted()) {
         return false;
     }
     const auto scope = timer.measure("shading");
-    // While only materials change, as under a brush, highlights stay as they are.
+    // Neither do highlights change then.
     std::vector<double> key = directLightKey(camera, lights);
     if (key != shadedKey) {
         const DirectLight::Surroundings around{reflection.get(), environment, ownLights.size()};
@@ -225,10 +253,16 @@ const gl::Texture* FrameRenderer::draw(const Camera& camera, std::span<const Lig
     return mPasses->draw(camera, lights, interrupt) ? mPasses->color : nullptr;
 }
 
+void FrameRenderer::geometryChanged() {
+    mPasses->drawnKey.clear();
+    mPasses->shadedKey.clear();
+    ++mPasses->geometry;
+}
+
 RenderedFrame FrameRenderer::render(const Camera& camera, std::span<const Light> lights) {
     RenderedFrame frame;
     const auto drawWhole = [&] {
-        mPasses->shadedKey.clear(); // the world may have moved; and a frame is timed as a whole
+        geometryChanged(); // it may have; and a frame is timed as a whole
         mPasses->draw(camera, lights);
     };
     auto* splatting = dynamic_cast<SplattingSolver*>(mPasses->solver.get());

@@ -82,13 +82,17 @@ public:
     /// @param camera in mm @param lights positions in mm
     [[nodiscard]] RenderedFrame render(const Camera& camera, std::span<const Light> lights);
 
-    /// The same for a window: nothing is read back, and highlights and direct light are kept while
-    /// camera and lights stay the same. For a world at rest, of which only materials change.
+    /// The same for a window: nothing is read back, and what depends on neither camera nor lights
+    /// that moved is kept: the visible surface, highlights and, on the cpu backend, the scattered
+    /// light that no change of a material reaches. Whoever moves vertices says so with
+    /// geometryChanged(), whoever edits a material with ExitanceSolver::materialChanged().
     /// @param interrupt see SolveInput; may be null
     /// @return RGBA32F, rows from the bottom, linear radiance, premultiplied; valid until the next
     ///         call. Null when interrupted.
     const gl::Texture* draw(const Camera& camera, std::span<const Light> lights,
                             const std::atomic<bool>* interrupt);
+    /// Vertices were moved since the last draw().
+    void geometryChanged();
     /// Times of draw()s since the last call. Waits for the GPU.
     [[nodiscard]] StageMilliseconds takeTimes();
     /// N of the light views, once refined for the scene (SplattingSettings::refineShortRanges).

@@ -103,7 +103,7 @@ Editor::Editor(const EditorOptions& options)
       mTools(mSession),
       mOpen(mSession),
       mJournal(stateFolder()),
-      mFiles(mSession, mOpen, mPreferences, mScript.isUnattended()),
+      mFiles(mSession, mOpen, mPreferences, mJournal, mScript.isUnattended()),
       mJobs(mWindow.jobsWindow(), [] { Window::wake(); }),
       mThumbnails(mJobs, cacheFolder() / "thumbnails"),
       mTruth(mJobs) {
@@ -126,11 +126,6 @@ void Editor::keepJournal() {
             }
         }
     });
-    mSession.beforeWriting = [this](const std::filesystem::path& file) {
-        if (const auto problem = mJournal.keep(file)) {
-            mSession.notify(Notice::Kind::Warning, *problem);
-        }
-    };
 }
 
 /// What concerns the window only, so that replays can show every panel.
@@ -322,8 +317,7 @@ void Editor::poll() {
                             "A file changed on disk; it is not read again, since the material has "
                             "changes that are not saved");
         } else {
-            // As the files are now, even if a recovery opened them as they had been.
-            mOpen.start({mSession.opened().model, mSession.opened().material});
+            mOpen.start(mSession.opened());
         }
         mFramesToDraw = kSettlingFrames;
     }
@@ -417,9 +411,7 @@ void Editor::drawContents() {
 }
 
 void Editor::drawFrame() {
-    if (mWindow.context().isSoftware()) {
-        mNextFrame = std::chrono::steady_clock::now() + kSoftwareFrame;
-    }
+    const auto begin = std::chrono::steady_clock::now();
     mWindow.beginFrame(); // throws where the context is lost: the journal keeps what was done
     const ViewportRect rect = viewportRect(mWindow.sizePx(), mLayout, mWindow.scale());
     mViewport.setRect(rect);
@@ -428,6 +420,12 @@ void Editor::drawFrame() {
     drawContents();
     mWindow.endFrame();
     mWindow.present();
+    if (mWindow.context().isSoftware()) {
+        const auto end = std::chrono::steady_clock::now();
+        // Under a stroke or a drag the picture comes first; who types wants to see it at once.
+        const int share = ImGui::IsAnyMouseDown() ? 2 : 0;
+        mNextFrame = std::max(begin + kSoftwareFrame, end + share * (end - begin));
+    }
 }
 
 void Editor::takeScreenshot(const std::filesystem::path& file) {

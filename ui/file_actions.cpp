@@ -24,8 +24,12 @@ std::string lowered(std::string text) {
 } // namespace
 
 FileActions::FileActions(Session& session, BackgroundOpen& open, Preferences& preferences,
-                         bool isUnattended)
-    : mSession(session), mOpen(open), mPreferences(preferences), mIsUnattended(isUnattended) {}
+                         Journal& journal, bool isUnattended)
+    : mSession(session),
+      mOpen(open),
+      mPreferences(preferences),
+      mJournal(journal),
+      mIsUnattended(isUnattended) {}
 
 void FileActions::open(const OpenRequest& request) {
     guard([this, request] { mOpen.start(request); });
@@ -59,6 +63,9 @@ void FileActions::openStamp() {
 }
 
 bool FileActions::saveTo(const std::filesystem::path& file) {
+    if (const auto problem = mJournal.keep(file)) {
+        mSession.notify(Notice::Kind::Warning, *problem);
+    }
     if (!mSession.perform({"file.save", {{"file", file.string()}}})) {
         return false;
     }

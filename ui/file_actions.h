@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ui/background_open.h"
+#include "ui/journal.h"
 #include "ui/panels/file_dialog.h"
 #include "ui/panels/question.h"
 #include "ui/preferences.h"
@@ -19,7 +20,7 @@ class FileActions {
 public:
     /// @param isUnattended nobody is there to answer questions: nothing is asked or remembered
     FileActions(Session& session, BackgroundOpen& open, Preferences& preferences,
-                bool isUnattended);
+                Journal& journal, bool isUnattended);
 
     void open(const OpenRequest& request);
     void putOn(const std::string& material) { open({mSession.opened().model, material}); }
@@ -61,6 +62,7 @@ private:
     Session& mSession;
     BackgroundOpen& mOpen;
     Preferences& mPreferences;
+    Journal& mJournal;
     bool mIsUnattended;
     FileDialog mFiles;
     Question mQuestion;

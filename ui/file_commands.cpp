@@ -10,14 +10,6 @@ namespace celadon::ui {
 
 namespace {
 
-void writeMaterialFile(const Session& session, const subedit::MaterialMap& material,
-                       const std::filesystem::path& file) {
-    if (session.beforeWriting) {
-        session.beforeWriting(file);
-    }
-    subedit::writeMaterial(material, file);
-}
-
 /// FILE.gltf, FILE.bin, and a material file for each material that is worn.
 void exportGltf(Session& session, const std::filesystem::path& file) {
     if (!session.hasWorld() || !session.services().describeMaterial) {
@@ -35,7 +27,7 @@ void exportGltf(Session& session, const std::filesystem::path& file) {
         }
         const std::string name =
             file.stem().string() + (i > 0 ? fmt::format("_{}", i + 1) : "") + ".subedit.exr";
-        writeMaterialFile(session, document->material(), file.parent_path() / name);
+        subedit::writeMaterial(document->material(), file.parent_path() / name);
         materials.push_back(session.services().describeMaterial(document->material(), name));
     }
     writeGltf(session.world(), materials, file);
@@ -67,7 +59,7 @@ void addFileCommands(Session& session) {
                          throw UsageError(fmt::format("'{}'", file.string()),
                                           "is no name of a material", "let it end in .subedit.exr");
                      }
-                     writeMaterialFile(session, document->material(), file);
+                     subedit::writeMaterial(document->material(), file);
                      session.materialFile = file;
                      session.markSaved();
                      session.notify(Notice::Kind::Info, fmt::format("Saved '{}'", file.string()));

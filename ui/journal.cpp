@@ -15,7 +15,6 @@ namespace celadon::ui {
 namespace {
 
 constexpr const char* kHeader = "journal";
-constexpr const char* kKept = "journal.kept"; ///< a file that was replaced, and where it is now
 constexpr const char* kSuffix = ".journal";
 constexpr const char* kKeptSuffix = ".kept.exr";
 
@@ -24,12 +23,11 @@ void removeFile(const std::filesystem::path& file) {
     std::filesystem::remove(file, ignored);
 }
 
-/// What Journal::keep() put aside, and no file of the user's, whatever a journal says.
-void removeKept(const std::filesystem::path& folder, const OpenRequest& opened) {
-    for (const auto& [file, kept] : opened.readInstead) {
-        if (kept.parent_path() == folder && kept.string().ends_with(kKeptSuffix)) {
-            removeFile(kept);
-        }
+/// What Journal::keep() put aside, not a file of the user's.
+void removeKept(const std::filesystem::path& folder, const std::string& material) {
+    if (material.ends_with(kKeptSuffix) &&
+        std::filesystem::path(material).parent_path() == folder) {
+        removeFile(material);
     }
 }
 
@@ -76,10 +74,7 @@ std::optional<std::string> Journal::add(const Command& command) {
         std::filesystem::create_directories(mFolder, failed);
         mFile = mFolder / fmt::format("{}{}", ::getpid(), kSuffix);
         mStream.open(mFile, std::ios::trunc);
-        write({kHeader, {{"model", mOpened.model}, {"material", mOpened.material}}});
-        for (const auto& [file, kept] : mOpened.readInstead) {
-            write({kKept, {{"file", file.string()}, {"as", kept.string()}}});
-        }
+        writeHeader();
     }
     write(command);
     if (!mStream) {
@@ -94,29 +89,31 @@ void Journal::write(const Command& command) {
     mStream << formatCommand(command) << '\n' << std::flush;
 }
 
+void Journal::writeHeader() {
+    write({kHeader, {{"model", mOpened.model}, {"material", mOpened.material}}});
+}
+
 std::optional<std::string> Journal::keep(const std::filesystem::path& file) {
     std::error_code failed;
-    const std::filesystem::path path = std::filesystem::weakly_canonical(file, failed);
-    if (!mStream.is_open() || mHasFailed || !std::filesystem::exists(path, failed) ||
-        mOpened.readInstead.contains(path)) {
+    if (!mStream.is_open() || !std::filesystem::equivalent(file, mOpened.material, failed)) {
         return std::nullopt;
     }
     std::filesystem::path kept;
     for (int number = 1; kept.empty() || std::filesystem::exists(kept, failed); ++number) {
         kept = mFolder / fmt::format("{}-{}{}", ::getpid(), number, kKeptSuffix);
     }
-    // A writer puts another file in this one's place: a second name for it costs nothing.
-    std::filesystem::create_hard_link(path, kept, failed);
+    // Saving puts another file in this one's place: a second name for it costs nothing.
+    std::filesystem::create_hard_link(file, kept, failed);
     if (failed) {
-        std::filesystem::copy_file(path, kept, failed);
+        std::filesystem::copy_file(file, kept, failed);
     }
     if (failed) {
         return fmt::format("'{}' cannot be kept in '{}' ({}): after a crash, what was done before "
                            "this save would be done twice",
-                           path.string(), kept.string(), failed.message());
+                           file.string(), mFolder.string(), failed.message());
     }
-    mOpened.readInstead[path] = kept;
-    write({kKept, {{"file", path.string()}, {"as", kept.string()}}});
+    mOpened.material = kept.string();
+    writeHeader(); // the last one counts
     return std::nullopt;
 }
 
@@ -127,13 +124,13 @@ void Journal::finish() {
         removeFile(mFile);
         mFile.clear();
     }
-    removeKept(mFolder, mOpened);
+    removeKept(mFolder, mOpened.material);
     mOpened = {};
 }
 
 void discard(const Recovery& recovery) {
     removeFile(recovery.file);
-    removeKept(recovery.file.parent_path(), recovery.opened);
+    removeKept(recovery.file.parent_path(), recovery.opened.material);
 }
 
 std::optional<Recovery> findRecovery(const std::filesystem::path& folder) {
@@ -151,16 +148,13 @@ std::optional<Recovery> findRecovery(const std::filesystem::path& folder) {
             if (commands.empty() || commands.front().name != kHeader) {
                 continue;
             }
-            const Command header = commands.front();
-            const Arguments arguments(header);
-            commands.erase(commands.begin());
-            OpenRequest opened{arguments.text("model"), arguments.text("material"), {}};
+            OpenRequest opened;
             std::erase_if(commands, [&opened](const Command& command) {
-                if (command.name != kKept) {
+                if (command.name != kHeader) {
                     return false;
                 }
-                const Arguments kept(command);
-                opened.readInstead[kept.text("file")] = kept.text("as");
+                const Arguments header(command);
+                opened = {header.text("model"), header.text("material")};
                 return true;
             });
             const auto time = entry.last_write_time(failed);

@@ -33,6 +33,23 @@ FrameSettings settingsOf(const PictureRequest& request) {
     return settings;
 }
 
+/// Dabs of a stroke overlap, and many come between two pictures: what lies within the rectangles of
+/// two is worked on once.
+void addChange(std::vector<MaterialChange>& changes, MaterialChange added) {
+    for (auto other = changes.begin(); other != changes.end();) {
+        const subedit::TexelRect both = unite(other->rect, added.rect);
+        if (other->material == added.material &&
+            both.texels() <= other->rect.texels() + added.rect.texels()) {
+            added = {added.material, both, std::max(added.largestLogP, other->largestLogP)};
+            changes.erase(other);
+            other = changes.begin(); // it may reach others now
+        } else {
+            ++other;
+        }
+    }
+    changes.push_back(added);
+}
+
 /// A quality's other settings follow from these.
 bool isSame(const FrameSettings& a, const FrameSettings& b) {
     return a.size == b.size && a.coverageSamples == b.coverageSamples && a.specular == b.specular &&
@@ -74,10 +91,6 @@ void PictureRenderers::dropScene() {
 }
 
 void PictureRenderers::makeScene() {
-    mKnownLog = subedit::kLogProfileFloor;
-    for (const auto& material : mMaterials) {
-        mKnownLog = std::max(mKnownLog, *std::ranges::max_element(material->logProfile));
-    }
     mScene = std::make_shared<GpuScene>(*mWorld, frameSettings(Quality::Default));
     mToneMap = std::make_unique<ToneMapPass>(mScene->shaders);
     mViewMode = std::make_unique<ViewModePass>(mScene->shaders, mScene->materials.count());
@@ -91,7 +104,7 @@ void PictureRenderers::apply(const SelectionWeights& selection) {
 
 void PictureRenderers::apply(const std::deque<MaterialPatch>& patches) {
     bool isWhole = false;
-    float largestLog = mKnownLog;
+    std::vector<MaterialChange> changes;
     for (const MaterialPatch& patch : patches) {
         subedit::MaterialMap& map = *mMaterials[static_cast<std::size_t>(patch.material)];
         if (patch.whole) {
@@ -99,8 +112,9 @@ void PictureRenderers::apply(const std::deque<MaterialPatch>& patches) {
             isWhole = true;
             continue;
         }
+        float largestLogP = subedit::kLogProfileFloor;
         for (const float value : patch.logProfile) {
-            largestLog = std::max(largestLog, value);
+            largestLogP = std::max(largestLogP, value);
         }
         const float* from = patch.logProfile.data();
         const auto row =
@@ -108,17 +122,18 @@ void PictureRenderers::apply(const std::deque<MaterialPatch>& patches) {
         for (int y = patch.rect.y; y < patch.rect.bottom(); ++y, from += row) {
             std::copy_n(from, row, map.logProfile.data() + map.index(patch.rect.x, y, 0));
         }
-        if (!isWhole) {
-            mScene->materials.update(patch.material, map, patch.rect);
-        }
+        addChange(changes, {patch.material, patch.rect, largestLogP});
     }
     if (isWhole) {
         dropScene();
         makeScene();
-    } else if (largestLog > mKnownLog) {
-        mKnownLog = largestLog;
-        for (Ready& entry : mReady) {
-            entry.renderer->solver().materialsChanged();
+        return;
+    }
+    for (const MaterialChange& change : changes) {
+        const subedit::MaterialMap& map = *mMaterials[static_cast<std::size_t>(change.material)];
+        mScene->materials.update(change.material, map, change.rect);
+        for (const Ready& entry : mReady) {
+            entry.renderer->solver().materialChanged(change);
         }
     }
 }

@@ -54,7 +54,6 @@ private:
     std::vector<std::shared_ptr<subedit::MaterialMap>> mMaterials;
     std::shared_ptr<GpuScene> mScene;
     std::list<Ready> mReady; ///< latest used first
-    float mKnownLog = 0.0f;  ///< largest ln P of all materials, or more
     std::unique_ptr<ToneMapPass> mToneMap;
     std::unique_ptr<ViewModePass> mViewMode;
     std::map<int, gl::Texture> mSelections; ///< by material

@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,9 +25,6 @@ namespace celadon::ui {
 struct OpenRequest {
     std::string model;
     std::string material;
-    /// Material files, by canonical path, and what is read in their place: how they were before a
-    /// session that did not end well saved over them (journal.h).
-    std::map<std::filesystem::path, std::filesystem::path> readInstead{};
 };
 
 /// What the editor cannot do by itself, given by the program.
@@ -117,8 +113,6 @@ public:
     std::optional<std::filesystem::path> materialFile; ///< where Save writes
     double aspect = 16.0 / 9.0;                        ///< of the viewport; set by the window
     std::vector<Notice> notices;
-    /// Told of each material file before it is written: what stands there may be worth keeping.
-    std::function<void(const std::filesystem::path&)> beforeWriting;
 
     void notify(Notice::Kind kind, const std::string& text);
 

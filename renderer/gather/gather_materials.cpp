@@ -57,6 +57,14 @@ GatherMaterials::GatherMaterials(std::span<const MaterialPointer> materials)
     update();
 }
 
+bool GatherMaterials::admit(float largestLogP) {
+    if (largestLogP <= mLargestLogP) {
+        return false;
+    }
+    update();
+    return true;
+}
+
 void GatherMaterials::update() {
     mCommon = celadon::commonKnots(mMaterials);
     const auto sameKnots = [this](const MaterialPointer& material) {
@@ -76,7 +84,8 @@ void GatherMaterials::update() {
     }
     mLargestProfile = static_cast<std::size_t>(mostKnots * gather::kKnotCodes);
     mScale.offset = subedit::kLogProfileFloor;
-    mScale.step = (largest + kRoomAbove - subedit::kLogProfileFloor) / kLargestCode;
+    mLargestLogP = largest + kRoomAbove;
+    mScale.step = (mLargestLogP - subedit::kLogProfileFloor) / kLargestCode;
     const float halfLog2e = 0.5f * std::numbers::log2e_v<float>;
     mScale.exponentOffset = 2.0f * halfLog2e * mScale.offset;
     mScale.exponentStep = halfLog2e * mScale.step;
@@ -88,6 +97,20 @@ gather::Knots GatherMaterials::knots(int material) const {
 
 void GatherMaterials::encodeLogs(const float* logP, std::size_t count, std::uint16_t* codes) const {
     quantize(logP, count, mScale.offset, 1.0f / mScale.step, codes);
+}
+
+bool GatherMaterials::dependsOn(int material, glm::vec2 uv, const subedit::TexelRect& rect) const {
+    const subedit::MaterialMap& own = map(material);
+    // Texels from the rectangle's middle, the short way around.
+    const auto isNear = [](float t, int size, int low, int extent) {
+        const float middle = static_cast<float>(low) + 0.5f * static_cast<float>(extent);
+        const float offset = t * static_cast<float>(size) - middle;
+        const float around =
+            offset - static_cast<float>(size) * std::round(offset / static_cast<float>(size));
+        return std::abs(around) <= 0.5f * static_cast<float>(extent) + 1.0f;
+    };
+    return isNear(uv.x, own.width, rect.x, rect.width) &&
+           isNear(uv.y, own.height, rect.y, rect.height);
 }
 
 void GatherMaterials::encode(int material, glm::vec2 uv, std::uint16_t* codes) const {

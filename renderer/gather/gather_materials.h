@@ -2,6 +2,7 @@
 
 #include "renderer/gather/pair_kernel.h"
 #include "renderer/scene/world.h"
+#include "subedit/map/texel_rect.h"
 
 #include <span>
 #include <vector>
@@ -15,11 +16,12 @@ namespace celadon {
 
 class GatherMaterials {
 public:
-    /// Keeps pointers: texels edited in place are seen by the next solve, see update().
+    /// Keeps pointers: texels edited in place are seen by the next solve, see admit().
     explicit GatherMaterials(std::span<const MaterialPointer> materials);
 
-    /// After an edit: codes span up to the largest ln P of any map.
-    void update();
+    /// After an edit. Codes span some more than the largest ln P there was. @return whether they
+    /// had to be made anew, all of them
+    bool admit(float largestLogP);
 
     [[nodiscard]] const subedit::MaterialMap& map(int material) const {
         return *mMaterials[static_cast<std::size_t>(material)];
@@ -33,6 +35,9 @@ public:
     /// Codes of the longest profile.
     [[nodiscard]] std::size_t largestProfile() const { return mLargestProfile; }
 
+    /// Whether the profile at a texture coordinate depends on any texel of a rectangle; within a
+    /// texel of it also true.
+    [[nodiscard]] bool dependsOn(int material, glm::vec2 uv, const subedit::TexelRect& rect) const;
     /// Codes of the profile at a texture coordinate: [segments + 1][kKnotCodes].
     void encode(int material, glm::vec2 uv, std::uint16_t* codes) const;
     /// sqrt(P) of such a profile on the common knots, zero beyond its own r_s.
@@ -41,9 +46,12 @@ public:
     void encodeLogs(const float* logP, std::size_t count, std::uint16_t* codes) const;
 
 private:
+    void update();
+
     std::vector<MaterialPointer> mMaterials;
     gather::Knots mCommon;
     gather::CodeScale mScale;
+    float mLargestLogP = 0.0f; ///< that has a code
     std::size_t mLargestProfile = 0;
     gather::Profiles mProfiles = gather::Profiles::Any;
 };

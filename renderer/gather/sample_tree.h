@@ -70,6 +70,12 @@ public:
     /// where nothing is lit.
     [[nodiscard]] const std::vector<Level>& levels() const { return mLevels; }
     [[nodiscard]] const std::vector<std::uint16_t>& codes() const { return mCodes; }
+    [[nodiscard]] const TreeSettings& settings() const { return mSettings; }
+    /// Whether the nodes and codes of both have the same places.
+    [[nodiscard]] bool hasShapeOf(const SampleTree& other) const {
+        return mMorton == other.mMorton && mCodes.size() == other.mCodes.size() &&
+               mSettings.levels == other.mSettings.levels;
+    }
 
     struct Counts {
         std::uint64_t candidates = 0;         ///< lit nodes of all levels

@@ -13,6 +13,12 @@ glm::ivec2 pixelOf(int lane) {
     return {(quarter % 2) * 4 + within % 4, (quarter / 2) * 4 + within / 4};
 }
 
+/// Of a lane's pixel in a level's texels; it must lie within.
+std::size_t indexOf(const ViewTexels& level, glm::ivec2 corner, int lane) {
+    const glm::ivec2 pixel = corner + pixelOf(lane);
+    return 4 * (std::size_t(pixel.y) * std::size_t(level.size.x) + std::size_t(pixel.x));
+}
+
 } // namespace
 
 TileLoader::TileLoader(const GatherMaterials& materials)
@@ -22,7 +28,7 @@ TileLoader::TileLoader(const GatherMaterials& materials)
     tile.profileStride = static_cast<int>(materials.largestProfile());
 }
 
-bool TileLoader::load(const ViewTexels& level, glm::ivec2 corner) {
+bool TileLoader::locate(const ViewTexels& level, glm::ivec2 corner) {
     bounds = {};
     mCovered = 0;
     glm::vec3 any(0.0f);
@@ -34,8 +40,7 @@ bool TileLoader::load(const ViewTexels& level, glm::ivec2 corner) {
         if (pixel.x >= level.size.x || pixel.y >= level.size.y) {
             continue;
         }
-        const std::size_t i =
-            4 * (std::size_t(pixel.y) * std::size_t(level.size.x) + std::size_t(pixel.x));
+        const std::size_t i = indexOf(level, corner, lane);
         const float* position = level.positions + i;
         const int material = static_cast<int>(level.surfaces[i + 2]);
         if (!(position[3] > 0.0f) || level.surfaces[i + 2] < 0.0f) {
@@ -48,10 +53,6 @@ bool TileLoader::load(const ViewTexels& level, glm::ivec2 corner) {
         tile.perMm[lane] = knots.perMm;
         tile.rangeMm[lane] = knots.rangeMm;
         tile.lastSegment[lane] = static_cast<float>(knots.segments - 1);
-        if (!mCodes.empty()) {
-            mMaterials.encode(material, {level.surfaces[i], level.surfaces[i + 1]},
-                              mCodes.data() + lane * tile.profileStride);
-        }
         any = {position[0], position[1], position[2]};
         bounds.add(any);
         ++mCovered;
@@ -60,7 +61,6 @@ bool TileLoader::load(const ViewTexels& level, glm::ivec2 corner) {
         return false;
     }
     for (int lane = 0; lane < gather::kTilePixels; ++lane) {
-        std::fill_n(tile.sums[lane], 4, 0.0f);
         if (tile.rangeMm[lane] == 0.0f) { // not covered: finite numbers that are not counted
             tile.x[lane] = any.x;
             tile.y[lane] = any.y;
@@ -70,19 +70,43 @@ bool TileLoader::load(const ViewTexels& level, glm::ivec2 corner) {
     return true;
 }
 
+bool TileLoader::dependsOn(const ViewTexels& level, glm::ivec2 corner,
+                           std::span<const TexelChange> changes) const {
+    for (int lane = 0; lane < gather::kTilePixels && !changes.empty(); ++lane) {
+        if (tile.rangeMm[lane] == 0.0f) {
+            continue;
+        }
+        const float* surface = level.surfaces + indexOf(level, corner, lane);
+        for (const TexelChange& change : changes) {
+            if (static_cast<int>(surface[2]) == change.material &&
+                mMaterials.dependsOn(change.material, {surface[0], surface[1]}, change.rect)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+void TileLoader::loadProfiles(const ViewTexels& level, glm::ivec2 corner) {
+    for (int lane = 0; lane < gather::kTilePixels; ++lane) {
+        std::fill_n(tile.sums[lane], 4, 0.0f);
+        if (!mCodes.empty() && tile.rangeMm[lane] > 0.0f) {
+            const float* surface = level.surfaces + indexOf(level, corner, lane);
+            mMaterials.encode(static_cast<int>(surface[2]), {surface[0], surface[1]},
+                              mCodes.data() + lane * tile.profileStride);
+        }
+    }
+}
+
 void TileLoader::store(const ViewTexels& level, glm::ivec2 corner, std::uint64_t pairs) const {
     const float pairsPerPixel = static_cast<float>(pairs) / static_cast<float>(mCovered);
     for (int lane = 0; lane < gather::kTilePixels; ++lane) {
         if (tile.rangeMm[lane] == 0.0f) {
             continue;
         }
-        const glm::ivec2 pixel = corner + pixelOf(lane);
-        float* out = level.exitance +
-                     4 * (std::size_t(pixel.y) * std::size_t(level.size.x) + std::size_t(pixel.x));
-        for (std::size_t c = 0; c < 3; ++c) {
-            out[c] += tile.sums[lane][c];
-        }
-        out[3] += pairsPerPixel;
+        float* out = level.exitance + indexOf(level, corner, lane);
+        std::copy_n(tile.sums[lane], 3, out);
+        out[3] = pairsPerPixel;
     }
 }
 

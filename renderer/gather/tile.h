@@ -3,6 +3,7 @@
 #include "renderer/gather/tile_gather.h"
 #include "renderer/scene/point_bounds.h"
 
+#include <span>
 #include <vector>
 
 namespace celadon {
@@ -13,9 +14,14 @@ class TileLoader {
 public:
     explicit TileLoader(const GatherMaterials& materials);
 
-    /// Reads a tile of a level. @return false where nothing scatters
-    bool load(const ViewTexels& level, glm::ivec2 corner);
-    /// Adds the tile's sums to the level, and its pairs, spread over its pixels.
+    /// Finds the places of a tile's pixels. @return false where nothing scatters
+    bool locate(const ViewTexels& level, glm::ivec2 corner);
+    /// Whether a pixel's profile depends on changed texels. After locate().
+    [[nodiscard]] bool dependsOn(const ViewTexels& level, glm::ivec2 corner,
+                                 std::span<const TexelChange> changes) const;
+    /// Reads the profiles of the pixels, and sets their sums to zero. After locate().
+    void loadProfiles(const ViewTexels& level, glm::ivec2 corner);
+    /// The tile's sums become the level's, and its pairs, spread over its pixels.
     void store(const ViewTexels& level, glm::ivec2 corner, std::uint64_t pairs) const;
 
     gather::Tile tile{};

@@ -2,12 +2,14 @@
 
 #include "renderer/gather/gather_materials.h"
 #include "renderer/gather/sample_tree.h"
+#include "renderer/gather/tree_change.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 
 #include <cstdint>
 #include <functional>
+#include <span>
 
 /// Splatting turned around: each tile of pixels gathers the samples that reach it, from the tree,
 /// at each level of the splatting buffer. The same sums as the raster path (DESIGN 3.3). No GL
@@ -19,7 +21,19 @@ struct ViewTexels {
     glm::ivec2 size{0};
     const float* positions = nullptr; ///< xyz mm, view depth; 0 depth: background
     const float* surfaces = nullptr;  ///< u, v, material (< 0: not scattering), R_P
-    float* exitance = nullptr;        ///< 1e-6 W/mm^2, that is W/m^2; alpha counts pairs. Added to
+    float* exitance = nullptr;        ///< 1e-6 W/mm^2, that is W/m^2; alpha counts pairs
+};
+
+/// Texels of a material that were edited.
+struct TexelChange {
+    int material = 0;
+    subedit::TexelRect rect;
+};
+
+/// What changed since the exitance of a level was gathered, in the same view.
+struct GatherChange {
+    const TreeChange& tree;
+    std::span<const TexelChange> texels; ///< of the pixels' own profiles
 };
 
 struct GatherSettings {
@@ -34,10 +48,13 @@ struct GatherSettings {
     std::function<float(float pixelsPerRadius, int material)> minimalRadius;
 };
 
-/// Adds what the tree's samples bring to one level of the splatting buffer. @return pairs
-/// @param level  which of `levelCount`
+/// Writes what the tree's samples bring to one level of the splatting buffer, where something
+/// scatters. @return pairs
+/// @param level   which of `levelCount`
+/// @param change  null: all is gathered. Else tiles that nothing of it reaches stay as they are,
+///                which is what gathering them again would find, bit for bit; hierarchical only.
 std::uint64_t gatherLevel(const SampleTree& tree, const GatherMaterials& materials,
                           const ViewTexels& view, int level, int levelCount,
-                          const GatherSettings& settings);
+                          const GatherSettings& settings, const GatherChange* change = nullptr);
 
 } // namespace celadon

@@ -116,7 +116,10 @@ void Antialiasing::resolve(const GpuWorld& world, const Camera& camera, const Sp
     for (int i = 0; i < mDraws; ++i) {
         // The picture moves against the draw's offset from the pixel's center.
         const glm::dvec2 offset = jitter(i);
-        drawSamples(world, makeCameraView(camera, view.size().x, view.size().y, -offset), view);
+        if (mDraws > 1 || mSamplesOf != view.drawn()) {
+            drawSamples(world, makeCameraView(camera, view.size().x, view.size().y, -offset), view);
+            mSamplesOf = view.drawn();
+        }
         resolveDraw(view, radiance, offset);
     }
 }

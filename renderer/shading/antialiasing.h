@@ -32,6 +32,7 @@ private:
 
     gl::Texture mSamples, mNormals, mDepthBuffer, mColor;
     int mDraws;
+    std::uint64_t mSamplesOf = 0;   ///< SplattingBuffer::drawn() that the samples belong to
     std::vector<glm::vec2> mPlaces; ///< of a draw's samples, from the pixel's center, in pixels
     gl::Framebuffer mSampleFramebuffer;
     gl::Buffer mFrameBlock;

@@ -2,8 +2,13 @@
 
 #include "renderer/splatting/splatting_buffer.h"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
+#include <cstring>
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace celadon {
 
@@ -11,10 +16,43 @@ namespace {
 
 constexpr double kWattsPerUnit = 1e-6; ///< flux is kept in W/m^2 times mm^2
 
+/// Rectangles of edits that are told apart between two solves.
+constexpr std::size_t kMostChanges = 32;
+
+void addChange(std::vector<TexelChange>& changes, const TexelChange& added) {
+    if (changes.size() >= kMostChanges) {
+        const auto other = std::ranges::find(changes, added.material, &TexelChange::material);
+        if (other != changes.end()) {
+            other->rect = unite(other->rect, added.rect);
+            return;
+        }
+    }
+    changes.push_back(added);
+}
+
+/// Light views whose state is worth its memory: some 100 MB at 512 x 512 texels.
+std::size_t keptLights(int irradianceSize) {
+    return irradianceSize <= 128 ? 16 : irradianceSize <= 256 ? 8 : irradianceSize <= 512 ? 2 : 1;
+}
+
 /// A level into memory that is kept from frame to frame.
 void read(const gl::Texture& texture, int level, std::vector<float>& texels) {
     texels.resize(texture.texelCount(level) * static_cast<std::size_t>(texture.channels()));
     texture.readLevel(level, std::span(texels));
+}
+
+/// Adds light views up; the first one alone is there to begin with.
+void addTo(std::vector<float>& sum, const std::vector<float>& part) {
+    if (sum.empty()) {
+        sum = part;
+        return;
+    }
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, sum.size(), 1 << 16),
+                      [&](const auto& range) {
+                          for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                              sum[i] += part[i];
+                          }
+                      });
 }
 
 } // namespace
@@ -25,15 +63,34 @@ CpuBackend::CpuBackend(const gl::ShaderLibrary& shaders, std::span<const Materia
       mIrradiance(shaders, static_cast<int>(materials.size()), settings.irradianceSize, 1),
       mMaterials(materials),
       mExitance(gl::Texture::make2d("exitance", GL_RGBA32F, view.paddedSize(), view.levels())),
-      mLight(IrradianceBuffer::kTargets),
-      mView(static_cast<std::size_t>(view.levels())) {}
+      mView(static_cast<std::size_t>(view.levels())),
+      mLights(keptLights(settings.irradianceSize)) {}
+
+void CpuBackend::materialChanged(const MaterialChange& change) {
+    const bool hasNewCodes = mMaterials.admit(change.largestLogP);
+    for (LightState& state : mLights) {
+        addChange(state.changes, {change.material, change.rect});
+        if (hasNewCodes) {
+            state.isCurrent.clear();
+        }
+    }
+}
 
 void CpuBackend::begin(const SolveInput& input) {
-    for (int k = 0; k < input.view.levels(); ++k) {
-        ViewLevel& level = mView[static_cast<std::size_t>(k)];
-        read(input.view.positions(), k, level.positions);
-        read(input.view.surfaces(), k, level.surfaces);
-        level.exitance.assign(level.positions.size(), 0.0f);
+    mGatheredPairs = 0;
+    for (ViewLevel& level : mView) {
+        level.exitance.clear();
+    }
+    if (mViewDrawn != input.view.drawn()) {
+        mViewDrawn = input.view.drawn();
+        for (int k = 0; k < input.view.levels(); ++k) {
+            ViewLevel& level = mView[static_cast<std::size_t>(k)];
+            read(input.view.positions(), k, level.positions);
+            read(input.view.surfaces(), k, level.surfaces);
+        }
+        for (LightState& state : mLights) {
+            state.isCurrent.clear();
+        }
     }
     mGather.hierarchical = mSettings.scheme == Scheme::Hierarchical;
     mGather.multiresolution = mSettings.multiresolution;
@@ -47,40 +104,67 @@ void CpuBackend::begin(const SolveInput& input) {
     };
 }
 
-LightTexels CpuBackend::lightTexels() const {
+LightTexels CpuBackend::lightTexels(const LightState& state) const {
     LightTexels texels;
     texels.size = mIrradiance.size();
-    texels.stride = mIrradiance.positions().size2d().x;
-    texels.positions = mLight[0].data();
-    texels.normals = mLight[1].data();
-    texels.fluxes = mLight[2].data();
-    texels.surfaces = mLight[3].data();
-    texels.covariances = mLight[4].data();
-    texels.extents = mLight[5].data();
-    texels.kepts = mLight[6].data();
+    texels.stride = mIrradiance.paddedSize();
+    texels.positions = state.texels[0].data();
+    texels.normals = state.texels[1].data();
+    texels.fluxes = state.texels[2].data();
+    texels.surfaces = state.texels[3].data();
+    texels.covariances = state.texels[4].data();
+    texels.extents = state.texels[5].data();
+    texels.kepts = state.texels[6].data();
     return texels;
 }
 
-void CpuBackend::buildTree(const blocks::LightBlock& light, const SolveInput& input) {
-    for (int i = 0; i < IrradianceBuffer::kTargets; ++i) {
-        read(mIrradiance.target(i), 0, mLight[static_cast<std::size_t>(i)]);
+void CpuBackend::drawLight(const blocks::LightBlock& light, const SolveInput& input,
+                           LightState& state) {
+    state.texels.resize(IrradianceBuffer::kTargets);
+    const bool isDrawn = state.drawnFor && state.geometry == input.geometry &&
+                         std::memcmp(&*state.drawnFor, &light, sizeof(light)) == 0;
+    if (isDrawn) {
+        mIrradiance.refreshRadii(state.surfaces);
+        read(mIrradiance.extents(), 0, mRadii);
+        std::vector<float>& extents = state.texels[5];
+        for (std::size_t i = 0; i < extents.size(); i += 4) {
+            extents[i + 2] = mRadii[i + 2];
+            extents[i + 3] = mRadii[i + 3];
+        }
+        read(mIrradiance.kepts(), 0, state.texels[6]);
+        return;
     }
-    const LightTexels texels = lightTexels();
-    TreeSettings tree;
-    tree.hierarchical = mSettings.scheme == Scheme::Hierarchical;
-    tree.levels = mSettings.adaptive ? mSettings.irradianceLevels : 1;
-    tree.adaptive = mSettings.adaptive;
-    tree.cutEnergy = mSettings.energy;
-    tree.alpha = static_cast<float>(mSettings.alpha);
-    tree.discontinuityMm =
+    mIrradiance.draw(input.gpuWorld);
+    for (int i = 0; i < IrradianceBuffer::kTargets; ++i) {
+        read(mIrradiance.target(i), 0, state.texels[static_cast<std::size_t>(i)]);
+    }
+    const glm::ivec2 size = mIrradiance.surfaces().size2d();
+    if (state.surfaces.id() == 0) {
+        state.surfaces = gl::Texture::make2d("light view: surface points", GL_RGBA32F, size);
+    }
+    glCopyImageSubData(mIrradiance.surfaces().id(), GL_TEXTURE_2D, 0, 0, 0, 0, state.surfaces.id(),
+                       GL_TEXTURE_2D, 0, 0, 0, 0, size.x, size.y, 1);
+    state.drawnFor = light;
+    state.geometry = input.geometry;
+}
+
+void CpuBackend::buildTree(const blocks::LightBlock& light, const SolveInput& input,
+                           LightState& state) {
+    TreeSettings settings;
+    settings.hierarchical = mSettings.scheme == Scheme::Hierarchical;
+    settings.levels = mSettings.adaptive ? mSettings.irradianceLevels : 1;
+    settings.adaptive = mSettings.adaptive;
+    settings.cutEnergy = mSettings.energy;
+    settings.alpha = static_cast<float>(mSettings.alpha);
+    settings.discontinuityMm =
         static_cast<float>(mSettings.discontinuity) * input.gpuWorld.readBounds().scattering.w;
-    tree.orientation = mSettings.orientation;
-    tree.texelScale = light.cone.z;
-    tree.texelOffset = light.cone.w;
-    tree.sampleAngle = static_cast<float>(mSettings.sampleAngle);
-    tree.fade = static_cast<float>(mSettings.fade);
-    tree.fineSpread = static_cast<float>(mSettings.fineSpread);
-    mTree.build(texels, mMaterials, tree);
+    settings.orientation = mSettings.orientation;
+    settings.texelScale = light.cone.z;
+    settings.texelOffset = light.cone.w;
+    settings.sampleAngle = static_cast<float>(mSettings.sampleAngle);
+    settings.fade = static_cast<float>(mSettings.fade);
+    settings.fineSpread = static_cast<float>(mSettings.fineSpread);
+    state.tree.build(lightTexels(state), mMaterials, settings);
 }
 
 void CpuBackend::add(const SolveInput& input, const LightViews& lightViews, int view,
@@ -89,32 +173,64 @@ void CpuBackend::add(const SolveInput& input, const LightViews& lightViews, int 
     if (light.direction.w == 0.0f) {
         return; // not in use
     }
+    mLastLight = static_cast<std::size_t>(view) % mLights.size();
+    LightState& state = mLights[mLastLight];
     {
         const auto scope = timer.measure("irradianceBuffer");
-        mIrradiance.draw(input.gpuWorld);
+        drawLight(light, input, state);
     }
     {
         const auto scope = timer.measure("selection");
-        buildTree(light, input);
+        if (!state.isCurrent.empty()) {
+            std::swap(state.tree, state.before);
+        }
+        buildTree(light, input, state);
     }
-    const int levels = input.view.levels();
-    for (int k = 0; k < levels && !input.isInterrupted(); ++k) {
+    gather(state, input, timer);
+}
+
+void CpuBackend::gather(LightState& state, const SolveInput& input, gl::StageTimer& timer) {
+    const auto levels = mView.size();
+    std::optional<TreeChange> treeChange;
+    std::vector<bool> wasCurrent = std::exchange(state.isCurrent, std::vector<bool>(levels, false));
+    wasCurrent.resize(levels, false);
+    const std::vector<TexelChange> changes = std::exchange(state.changes, {});
+    if (mGather.hierarchical && std::ranges::count(wasCurrent, true) > 0) {
+        treeChange.emplace(state.before, state.tree);
+    }
+    state.exitances.resize(levels);
+    for (std::size_t k = 0; k < levels && !input.isInterrupted(); ++k) {
         const auto scope = timer.measure("splatting " + std::to_string(k));
-        ViewLevel& level = mView[static_cast<std::size_t>(k)];
-        const ViewTexels texels{mExitance.size2d(k), level.positions.data(), level.surfaces.data(),
-                                level.exitance.data()};
-        gatherLevel(mTree, mMaterials, texels, k, levels, mGather);
+        ViewLevel& level = mView[k];
+        std::vector<float>& exitance = state.exitances[k];
+        const bool keeps = treeChange && !treeChange->isEverything() && wasCurrent[k];
+        if (!keeps) {
+            exitance.assign(level.positions.size(), 0.0f);
+        }
+        const int number = static_cast<int>(k);
+        const ViewTexels texels{mExitance.size2d(number), level.positions.data(),
+                                level.surfaces.data(), exitance.data()};
+        std::optional<GatherChange> change;
+        if (keeps) {
+            change.emplace(GatherChange{*treeChange, changes});
+        }
+        mGatheredPairs +=
+            gatherLevel(state.tree, mMaterials, texels, number, static_cast<int>(levels), mGather,
+                        change ? &*change : nullptr);
+        state.isCurrent[k] = true;
+        addTo(level.exitance, exitance);
     }
 }
 
 void CpuBackend::finish() {
     for (std::size_t k = 0; k < mView.size(); ++k) {
+        mView[k].exitance.resize(mView[k].positions.size(), 0.0f); // no light view was in use
         mExitance.upload(static_cast<int>(k), std::span<const float>(mView[k].exitance));
     }
 }
 
 void CpuBackend::count(FrameStats& statistics) {
-    const SampleTree::Counts counts = mTree.count();
+    const SampleTree::Counts counts = tree().count();
     statistics.samples.candidates += counts.candidates;
     for (std::size_t k = 0; k < counts.selected.size(); ++k) {
         statistics.samples.selected[k] += counts.selected[k];

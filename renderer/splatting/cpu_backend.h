@@ -7,10 +7,15 @@
 #include "renderer/splatting/splat_backend.h"
 #include "renderer/splatting/splatting_settings.h"
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 /// For software drivers, where a read-back is a copy and the processor is the renderer anyway: the
 /// buffers' level 0 is read, and tiles of pixels gather from a tree of samples on all cores.
+///
+/// While the view stays as it is, as under a brush, tiles that no change of a light's samples or of
+/// their own texels reaches keep what they had.
 namespace celadon {
 
 class CpuBackend final : public SplatBackend {
@@ -22,28 +27,48 @@ public:
     void add(const SolveInput& input, const LightViews& lightViews, int view,
              gl::StageTimer& timer) override;
     void finish() override;
-    void materialsChanged() override { mMaterials.update(); }
+    void materialChanged(const MaterialChange& change) override;
     [[nodiscard]] gl::Texture& exitance() override { return mExitance; }
     void count(FrameStats& statistics) override;
 
     /// Of the last light view, for views that explain.
-    [[nodiscard]] const SampleTree& tree() const { return mTree; }
-    [[nodiscard]] LightTexels lightTexels() const;
+    [[nodiscard]] const SampleTree& tree() const { return mLights[mLastLight].tree; }
+    [[nodiscard]] LightTexels lightTexels() const { return lightTexels(mLights[mLastLight]); }
+    /// Of the last solve, without those of tiles that were kept.
+    [[nodiscard]] std::uint64_t gatheredPairs() const { return mGatheredPairs; }
 
 private:
-    void buildTree(const blocks::LightBlock& light, const SolveInput& input);
+    /// What a light view brought, and from what.
+    struct LightState {
+        std::optional<blocks::LightBlock> drawnFor;
+        std::uint64_t geometry = 0;             ///< SolveInput's then
+        std::vector<std::vector<float>> texels; ///< the irradiance buffer's targets
+        gl::Texture surfaces;                   ///< one of them, for new radii
+        SampleTree tree;
+        SampleTree before;                         ///< see TreeChange
+        std::vector<std::vector<float>> exitances; ///< [level], RGBA as ViewTexels
+        std::vector<bool> isCurrent;               ///< [level]: gathered from `tree`
+        std::vector<TexelChange> changes;          ///< of materials since
+    };
+    void drawLight(const blocks::LightBlock& light, const SolveInput& input, LightState& state);
+    [[nodiscard]] LightTexels lightTexels(const LightState& state) const;
+    void buildTree(const blocks::LightBlock& light, const SolveInput& input, LightState& state);
+    void gather(LightState& state, const SolveInput& input, gl::StageTimer& timer);
 
     SplattingSettings mSettings;
     IrradianceBuffer mIrradiance; ///< level 0 only
     GatherMaterials mMaterials;
-    SampleTree mTree;
     GatherSettings mGather;
     gl::Texture mExitance;
-    std::vector<std::vector<float>> mLight; ///< the irradiance buffer's targets
     struct ViewLevel {
         std::vector<float> positions, surfaces, exitance;
     };
     std::vector<ViewLevel> mView;
+    std::uint64_t mViewDrawn = 0;    ///< SplattingBuffer::drawn() of mView
+    std::vector<LightState> mLights; ///< more light views take turns, and keep nothing
+    std::size_t mLastLight = 0;
+    std::uint64_t mGatheredPairs = 0;
+    std::vector<float> mRadii; ///< read back
 };
 
 } // namespace celadon

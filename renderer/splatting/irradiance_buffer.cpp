@@ -22,6 +22,8 @@ IrradianceBuffer::IrradianceBuffer(const gl::ShaderLibrary& shaders, int materia
       mPaddedSize(celadon::paddedSize(glm::ivec2(size), levels).x),
       mDraw("irradiance buffer", shaders, {"surface.vert", "irradiance_buffer.frag"},
             {{"MATERIAL_COUNT", std::to_string(materialCount)}}),
+      mRadii("irradiance radii", shaders, {"irradiance_radii.comp"},
+             {{"MATERIAL_COUNT", std::to_string(materialCount)}}),
       mMip("irradiance mip", shaders, {"irradiance_mip.comp"}),
       mRangeMip("depth range mip", shaders, {"depth_range_mip.comp"}) {
     const glm::ivec2 extent(mPaddedSize);
@@ -52,6 +54,16 @@ void IrradianceBuffer::draw(const GpuWorld& world) {
     }
     mFramebuffer.clearDepth(0.0f);
     world.draw(mDraw, false);
+}
+
+void IrradianceBuffer::refreshRadii(const gl::Texture& surfaces) {
+    const gl::DebugGroup group("irradiance radii");
+    mRadii.use();
+    surfaces.bind(0);
+    mTargets[5].bindImage(0, 0, GL_WRITE_ONLY);
+    mTargets[6].bindImage(1, 0, GL_WRITE_ONLY);
+    dispatchOver(mTargets[5].size2d());
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
 }
 
 void IrradianceBuffer::buildMips() {

@@ -20,6 +20,10 @@ public:
     /// Draws level 0 from a view of this buffer's size. The frame's, the materials' and the light
     /// view's uniform blocks are bound.
     void draw(const GpuWorld& world);
+    /// After profiles were edited, and nothing else changed: level 0 of kepts(), and of extents()
+    /// R_P and R_cut, the rest of them being lost.
+    /// @param surfaces as draw() left them
+    void refreshRadii(const gl::Texture& surfaces);
     /// Levels 1 and up, and the depth ranges; reads the solve block.
     void buildMips();
 
@@ -44,7 +48,7 @@ private:
     gl::Texture mDepth;
     gl::Texture mDepthRanges; ///< RG32F, all levels: least and greatest depth in mm
     gl::Framebuffer mFramebuffer;
-    gl::Program mDraw, mMip, mRangeMip;
+    gl::Program mDraw, mRadii, mMip, mRangeMip;
 };
 
 /// The size that halves without a rest down to the last of `levels`.

@@ -20,8 +20,8 @@ public:
     /// After the last light view: exitance() is complete.
     virtual void finish() {}
 
-    /// Texels of the materials were edited in place, and some P is larger than any was.
-    virtual void materialsChanged() {}
+    /// See ExitanceSolver.
+    virtual void materialChanged(const MaterialChange&) {}
 
     /// RGBA32F with the levels of the splatting buffer: B^k in W/m^2; alpha sums up to the pairs.
     [[nodiscard]] virtual gl::Texture& exitance() = 0;

@@ -37,6 +37,8 @@ SplattingBuffer::SplattingBuffer(const gl::ShaderLibrary& shaders, int materialC
       mFrameBlock("frame", sizeof(blocks::FrameBlock), gl::BufferUse::Update),
       mDraw("splatting buffer", shaders, {"surface.vert", "splatting_buffer.frag"},
             {{"CAMERA", "1"}, {"MATERIAL_COUNT", std::to_string(materialCount)}}),
+      mRadii("surface radii", shaders, {"surface_radii.comp"},
+             {{"MATERIAL_COUNT", std::to_string(materialCount)}}),
       mMip("median mip", shaders, {"median_mip.comp"}),
       mTileRange("tile range", shaders, {"tile_range.comp"}) {
     // Powers of two, so that every level is covered by the next.
@@ -62,8 +64,7 @@ SplattingBuffer::SplattingBuffer(const gl::ShaderLibrary& shaders, int materialC
 void SplattingBuffer::draw(const GpuWorld& world, const CameraView& view) {
     const gl::DebugGroup group("splatting buffer");
     mFrameBlock.write(std::array{makeFrameBlock(view, mSize, mPaddedSize)});
-    mFrameBlock.bindUniform(blocks::kFrame);
-    world.bindBounds();
+    bind(world);
     gl::PassState state;
     state.framebuffer = &mFramebuffer;
     state.viewport = glm::ivec4(0, 0, mSize); // the padding stays background
@@ -75,6 +76,22 @@ void SplattingBuffer::draw(const GpuWorld& world, const CameraView& view) {
     }
     mFramebuffer.clearDepth(0.0f);
     world.draw(mDraw, true);
+    ++mDrawn;
+}
+
+void SplattingBuffer::bind(const GpuWorld& world) const {
+    mFrameBlock.bindUniform(blocks::kFrame);
+    world.bindBounds();
+}
+
+void SplattingBuffer::refreshRadii() {
+    const gl::DebugGroup group("surface radii");
+    mRadii.use();
+    for (int level = 0; level < mLevels; ++level) {
+        mTargets[2].bindImage(0, level, GL_READ_WRITE);
+        dispatchOver(mTargets[2].size2d(level));
+    }
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 void SplattingBuffer::buildMips(double clusterDepth) {

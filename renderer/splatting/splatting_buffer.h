@@ -9,6 +9,8 @@
 #include "renderer/gpu_world.h"
 #include "renderer/scene/camera.h"
 
+#include <cstdint>
+
 /// Step 1, camera side (Chen et al. 2012, section 4; DESIGN 3.3): the visible surface at frame
 /// resolution, with median mips. Rows run from the bottom. Sizes are padded as in IrradianceBuffer.
 namespace celadon {
@@ -21,6 +23,12 @@ public:
 
     /// Draws level 0 with all looks and binds the frame block and the bounds.
     void draw(const GpuWorld& world, const CameraView& view);
+    /// The frame block of the last draw() and the bounds, as draw() leaves them.
+    void bind(const GpuWorld& world) const;
+    /// After profiles were edited, and nothing else changed: R_P, in every level there is.
+    void refreshRadii();
+    /// Another number after each draw().
+    [[nodiscard]] std::uint64_t drawn() const { return mDrawn; }
     /// Levels 1 and up. @param clusterDepth depths that count as one surface, in bounding sphere
     /// diameters
     void buildMips(double clusterDepth);
@@ -53,7 +61,8 @@ private:
     gl::Texture mTileRanges;
     gl::Framebuffer mFramebuffer;
     gl::Buffer mFrameBlock;
-    gl::Program mDraw, mMip, mTileRange;
+    gl::Program mDraw, mRadii, mMip, mTileRange;
+    std::uint64_t mDrawn = 0;
 };
 
 /// The frame block of a view. Frame and padded size in pixels.

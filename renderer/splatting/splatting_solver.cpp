@@ -135,7 +135,10 @@ void SplattingSolver::solveOnce(const SolveInput& input, gl::StageTimer& timer) 
     writeSolveBlock(input);
     {
         const auto scope = timer.measure("splattingBuffer");
-        input.view.buildMips(kClusterDepth);
+        if (mMipsOf != input.view.drawn()) {
+            input.view.buildMips(kClusterDepth);
+            mMipsOf = input.view.drawn();
+        }
         mBackend->begin(input);
     }
     mLightViews.update(input.lights, input.gpuWorld);
@@ -158,9 +161,9 @@ void SplattingSolver::solveOnce(const SolveInput& input, gl::StageTimer& timer) 
     mAccumulation.accumulate(mBackend->exitance(), input.view, input.materials);
 }
 
-void SplattingSolver::materialsChanged() {
+void SplattingSolver::materialChanged(const MaterialChange& change) {
     if (mBackend) {
-        mBackend->materialsChanged();
+        mBackend->materialChanged(change);
     }
 }
 

@@ -37,7 +37,7 @@ public:
     [[nodiscard]] int viewLevels() const override { return viewLevels(mSettings); }
     const gl::Texture& solve(const SolveInput& input, gl::StageTimer& timer) override;
     void report(FrameStats& stats) override;
-    void materialsChanged() override;
+    void materialChanged(const MaterialChange& change) override;
 
     /// Never Auto once something was solved.
     [[nodiscard]] SplatBackendKind backend() const { return mSettings.backend; }
@@ -71,6 +71,7 @@ private:
     LightViews mLightViews;
     Accumulation mAccumulation;
     gl::Buffer mSolveBlock;
+    std::uint64_t mMipsOf = 0; ///< SplattingBuffer::drawn() that has them
     bool mCollect = false;
     FrameStats mStatistics;
 };

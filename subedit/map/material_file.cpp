@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -355,10 +354,7 @@ void writeMaterial(const MaterialMap& map, const fs::path& file, StoredPrecision
     const auto fail = [&](const std::string& reason) {
         throw OutputError(fmt::format("'{}'", file.string()), "cannot be written: " + reason);
     };
-    std::string extension = file.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension != ".exr") {
+    if (file.extension() != ".exr") {
         fail("the name does not end in .exr");
     }
     const std::unique_ptr<OIIO::ImageOutput> output =
