@@ -84,7 +84,9 @@ GpuScene::GpuScene(const World& theWorld, const FrameSettings& settings)
     : world(theWorld),
       gpuWorld(theWorld),
       materials(theWorld.materials, settings.splatting.energy, settings.splatting.epsilon,
-                settings.exitFresnel, settings.splatting.rangeTable) {}
+                settings.exitFresnel, settings.splatting.rangeTable) {
+    shaders.define(sceneDefines(theWorld));
+}
 
 struct FrameRenderer::Passes {
     Passes(const gl::Context& glContext, std::shared_ptr<const GpuScene> theScene,

@@ -34,7 +34,15 @@ glm::vec4 toVec4(const BoundingSphere& sphere) {
 }
 
 /// Uniform locations of include/surface.glsl and splatting_buffer.frag.
-enum Location { kMeshInfo = 0, kBaseColor, kLobe, kEmission, kTextureSets, kTextureTransforms };
+enum Location {
+    kMeshInfo = 0,
+    kBaseColor,
+    kLobe,
+    kEmission,
+    kTextureSets,
+    kAlphaCutoff,
+    kTextureTransforms
+};
 
 } // namespace
 
@@ -92,6 +100,7 @@ void GpuWorld::addLook(const World& world, const SurfaceMaterial& material) {
     look.lobe = glm::vec4(material.metallic, material.roughness, material.ior.value_or(0.0f),
                           material.normalScale);
     look.emission = material.emission;
+    look.alphaCutoff = material.alphaCutoff.value_or(-1.0f);
     look.doubleSided = material.doubleSided;
     look.textures[0] = addTexture(world, material.baseColorTexture, true);
     look.textures[1] = addTexture(world, material.metallicRoughnessTexture, false);
@@ -123,34 +132,50 @@ void GpuWorld::addMesh(const WorldMesh& source) {
     mMeshes.push_back(std::move(result));
 }
 
+void GpuWorld::setBase(const gl::Program& program, const Look& look, int textures) const {
+    program.set(kBaseColor, look.baseColor);
+    glm::ivec4 sets(-1);
+    for (int i = 0; i < textures; ++i) {
+        const LookTexture& texture = look.textures[i];
+        sets[i] = texture.uvSet;
+        program.set(kTextureTransforms + i, texture.transform);
+        if (texture.image >= 0) {
+            mImages[static_cast<std::size_t>(texture.image)].bind(static_cast<GLuint>(i));
+            texture.sampler.bind(static_cast<GLuint>(i));
+        }
+    }
+    program.set(kTextureSets, sets);
+}
+
 void GpuWorld::draw(const gl::Program& program, bool looks) const {
     program.use();
     int meshId = 0;
     for (const GpuMesh& mesh : mMeshes) {
         const Look& look = mLooks[static_cast<std::size_t>(mesh.look)];
         program.set(kMeshInfo, glm::ivec4(mesh.scattering, look.doubleSided ? 1 : 0, ++meshId, 0));
+        program.set(kAlphaCutoff, look.alphaCutoff);
         if (looks) {
-            program.set(kBaseColor, look.baseColor);
+            setBase(program, look, kLookTextures);
             program.set(kLobe, look.lobe);
             program.set(kEmission, look.emission);
-            glm::ivec4 sets(-1);
-            for (int i = 0; i < 3; ++i) {
-                const LookTexture& texture = look.textures[i];
-                sets[i] = texture.uvSet;
-                program.set(kTextureTransforms + i, texture.transform);
-                if (texture.image >= 0) {
-                    mImages[static_cast<std::size_t>(texture.image)].bind(static_cast<GLuint>(i));
-                    texture.sampler.bind(static_cast<GLuint>(i));
-                }
-            }
-            program.set(kTextureSets, sets);
+        } else if (look.alphaCutoff >= 0.0f) {
+            setBase(program, look, 1);
         }
         mesh.vertexArray.bind();
         glDrawElements(GL_TRIANGLES, mesh.indexCount, GL_UNSIGNED_INT, nullptr);
     }
-    for (GLuint unit = 0; looks && unit < 3; ++unit) {
+    for (GLuint unit = 0; unit < kLookTextures; ++unit) {
         gl::Sampler::unbind(unit);
     }
+}
+
+std::vector<gl::ShaderDefine> sceneDefines(const World& world) {
+    std::vector<gl::ShaderDefine> defines;
+    if (std::any_of(world.looks.begin(), world.looks.end(),
+                    [](const SurfaceMaterial& look) { return look.alphaCutoff.has_value(); })) {
+        defines.push_back({"CUT_OUT", "1"});
+    }
+    return defines;
 }
 
 } // namespace celadon

@@ -21,7 +21,9 @@ public:
     explicit GpuWorld(const World& world);
 
     /// Draws every mesh with the given program (surface.vert; DESIGN 3.1, 3.3). Sets the uniforms
-    /// of include/surface.glsl, and with `looks` those of splatting_buffer.frag as well.
+    /// of include/surface.glsl, and with `looks` those of splatting_buffer.frag as well. Cut-outs
+    /// are cut out either way.
+    /// @param program compiled with sceneDefines()
     void draw(const gl::Program& program, bool looks) const;
 
     /// The buffers of one mesh, in the order of World::meshes, for what moves them
@@ -45,6 +47,8 @@ public:
     [[nodiscard]] blocks::BoundsBlock readBounds() const;
 
 private:
+    static constexpr int kLookTextures = 3; ///< base color, metallic-roughness, normal
+
     struct LookTexture {
         int image = -1;
         gl::Sampler sampler;
@@ -55,8 +59,9 @@ private:
         glm::vec4 baseColor;
         glm::vec4 lobe; ///< metallic, roughness, index of refraction or 0, normal scale
         glm::vec3 emission;
+        float alphaCutoff; ///< -1: none
         bool doubleSided;
-        LookTexture textures[3]; ///< base color, metallic-roughness, normal
+        LookTexture textures[kLookTextures];
     };
     struct GpuMesh {
         gl::Buffer vertices;
@@ -67,6 +72,8 @@ private:
         int scattering = -1;
     };
 
+    /// Base color and the first `textures` textures.
+    void setBase(const gl::Program& program, const Look& look, int textures) const;
     void addLook(const World& world, const SurfaceMaterial& material);
     void addMesh(const WorldMesh& mesh);
     int addImage(const World& world, int image, bool srgb);
@@ -79,5 +86,9 @@ private:
     std::vector<std::pair<int, bool>>
         mImageKeys; ///< (index in World::images, sRGB) of each of mImages
 };
+
+/// What the shaders of a world are compiled with besides each pass's own, so that others do not pay
+/// for it: CUT_OUT where some surface is cut out by its alpha.
+[[nodiscard]] std::vector<gl::ShaderDefine> sceneDefines(const World& world);
 
 } // namespace celadon

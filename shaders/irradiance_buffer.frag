@@ -51,4 +51,5 @@ void main() {
     outCovariance = vec4(C[0][0], C[0][1], C[0][2], C[1][1]);
     outExtent = vec4(C[1][2], C[2][2], radii.xy);
     outKept = vec4(kept, radii.z);
+    cutOut();
 }

@@ -1,4 +1,6 @@
 // Depth only: the shadow map of one light view.
 #include "include/surface.glsl"
 
-void main() {}
+void main() {
+    cutOut();
+}

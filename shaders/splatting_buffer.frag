@@ -14,19 +14,14 @@ layout(location = 3) out vec4 outLobe;     // normal of the specular lobe, rough
 layout(location = 4) out vec4 outBase;     // base color (linear), metallic; scattering: a weighs the lobe
 layout(location = 5) out vec4 outEmission; // emitted radiance, index of refraction of the lobe
 
-layout(location = 1) uniform vec4 baseColor;
 layout(location = 2) uniform vec4 lobe; // metallic, roughness, index of refraction or 0, normal scale
 layout(location = 3) uniform vec3 emission;
-layout(location = 4) uniform ivec4 textureSets; // uv set of base, metallic-roughness, normal: -1 none
-layout(location = 5) uniform mat3 textureTransforms[3];
 
-layout(binding = 0) uniform sampler2D baseColorTexture; // sRGB
 layout(binding = 1) uniform sampler2D metallicRoughnessTexture;
 layout(binding = 2) uniform sampler2D normalTexture;
 
 vec2 textureCoordinate(int index) {
-    vec2 uv = textureSets[index] == 1 ? surface.uv1 : surface.uv;
-    return (textureTransforms[index] * vec3(uv, 1.0)).xy;
+    return textureCoordinate(index, surface.uv, surface.uv1);
 }
 
 // Tangent frame from the derivatives of position and texture coordinate.
@@ -62,6 +57,17 @@ void main() {
     outNormal = vec4(n, float(meshInfo.z));
 #ifdef COVERAGE
     outDepth = vec2(depth, float(meshInfo.z));
+#ifdef CUT_OUT
+    if (alphaCutoff >= 0.0) { // holes have smooth rims: each sample is there or not
+        int there = 0;
+        for (int i = 0; i < gl_NumSamples; ++i) {
+            there |= isThere(interpolateAtSample(surface.uv, i), interpolateAtSample(surface.uv1, i)) ? 1 << i : 0;
+        }
+        gl_SampleMask[0] = there;
+    } else {
+        gl_SampleMask[0] = -1;
+    }
+#endif
 #else
     int m = meshInfo.x;
     outPosition = vec4(surface.position, depth);
@@ -84,5 +90,6 @@ void main() {
     outLobe = vec4(specularNormal, metallicRoughness.y);
     outBase = vec4(base.rgb, metallicRoughness.x);
     outEmission = vec4(emission, ior);
+    cutOut();
 #endif
 }

@@ -7,8 +7,16 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace celadon::gl {
+
+/// A compile-time option: "#define name value".
+struct ShaderDefine {
+    std::string name;
+    std::string value;
+};
 
 /// Where shader text comes from, by path relative to shaders/: the files compiled into the program,
 /// or, for those who edit shaders, a folder on disk.
@@ -20,6 +28,10 @@ public:
     explicit ShaderLibrary(std::filesystem::path folder);
     /// Files in memory, which outlive the library.
     explicit ShaderLibrary(std::span<const shaders::EmbeddedShader> files) : mFiles(files) {}
+
+    /// Options of every shader that is loaded from here on, besides its own: what a scene fixes.
+    void define(std::vector<ShaderDefine> defines) { mDefines = std::move(defines); }
+    [[nodiscard]] const std::vector<ShaderDefine>& defines() const { return mDefines; }
 
     /// Null when there is no such file. @throws InputError when it is there and cannot be read
     [[nodiscard]] std::optional<std::string> text(std::string_view path) const;
@@ -35,6 +47,7 @@ public:
 private:
     std::span<const shaders::EmbeddedShader> mFiles;
     std::optional<std::filesystem::path> mFolder;
+    std::vector<ShaderDefine> mDefines;
 };
 
 } // namespace celadon::gl

@@ -191,6 +191,7 @@ ShaderSource ShaderSource::load(const ShaderLibrary& library, std::string_view p
     ShaderSource source;
     source.mStage = stageOf(path);
     source.mText = "#version 450 core\n";
+    defines.insert(defines.end(), library.defines().begin(), library.defines().end());
     for (const ShaderDefine& define : defines) {
         source.mText += fmt::format("#define {} {}\n", define.name, define.value);
     }

@@ -8,12 +8,6 @@
 
 namespace celadon::gl {
 
-/// A compile-time option: "#define name value".
-struct ShaderDefine {
-    std::string name;
-    std::string value;
-};
-
 /// One line of a driver's log, or of the include resolver, mapped back to the file it is about.
 struct ShaderDiagnostic {
     std::string file; ///< relative to shaders/; empty when the driver named none

@@ -1,5 +1,6 @@
 #include "renderer/reference/ray_scene.h"
 
+#include "renderer/reference/cut_out.h"
 #include "subedit/assert.h"
 #include "subedit/errors.h"
 
@@ -52,6 +53,22 @@ SurfacePoint surfacePoint(const World& world, const TrianglePoint& place) {
     return point;
 }
 
+namespace {
+
+/// Of Embree, for one ray: a hit where the mesh is cut out does not count.
+void passCutOut(const RTCFilterFunctionNArguments* arguments) {
+    const auto& world = *static_cast<const World*>(arguments->geometryUserPtr);
+    RTCHitN* const hit = arguments->hit;
+    const TrianglePoint place{static_cast<int>(RTCHitN_geomID(hit, 1, 0)),
+                              RTCHitN_primID(hit, 1, 0), static_cast<double>(RTCHitN_u(hit, 1, 0)),
+                              static_cast<double>(RTCHitN_v(hit, 1, 0))};
+    if (isCutOut(world, place)) {
+        arguments->valid[0] = 0;
+    }
+}
+
+} // namespace
+
 /// Owns the device and the scene; Embree reports failures through the device.
 struct RayScene::Embree {
     RTCDevice device = nullptr;
@@ -85,7 +102,8 @@ struct RayScene::Embree {
         }
     }
 
-    void add(unsigned id, const Mesh& mesh) {
+    void add(const World& world, unsigned id) {
+        const Mesh& mesh = world.meshes[id].mesh;
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
         auto* vertices = static_cast<float*>(
             rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -103,6 +121,11 @@ struct RayScene::Embree {
             vertices = std::copy_n(&local.x, 3, vertices);
         }
         std::copy_n(mesh.indices.begin(), 3 * mesh.triangleCount(), indices);
+        if (mayBeCutOut(world, mesh)) {
+            rtcSetGeometryUserData(geometry, const_cast<World*>(&world));
+            rtcSetGeometryIntersectFilterFunction(geometry, passCutOut);
+            rtcSetGeometryOccludedFilterFunction(geometry, passCutOut);
+        }
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(scene, geometry, id);
         rtcReleaseGeometry(geometry);
@@ -128,7 +151,7 @@ RayScene::RayScene(const World& world) : mWorld(&world), mEmbree(std::make_uniqu
     }
     for (std::size_t i = 0; i < world.meshes.size(); ++i) {
         if (world.meshes[i].mesh.triangleCount() > 0) {
-            mEmbree->add(static_cast<unsigned>(i), world.meshes[i].mesh);
+            mEmbree->add(world, static_cast<unsigned>(i));
         }
     }
     rtcCommitScene(mEmbree->scene);

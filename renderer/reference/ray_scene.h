@@ -10,7 +10,8 @@
 #include <memory>
 #include <optional>
 
-/// Rays against all triangles of a world, scattering and opaque, by Embree. Coordinates are world
+/// Rays against all triangles of a world, scattering and opaque, by Embree; what is cut out of a
+/// mesh lets them pass. Coordinates are world
 /// millimeters in double; inside, the scene is moved to its center, so that a scene far from the
 /// origin loses nothing.
 namespace celadon {

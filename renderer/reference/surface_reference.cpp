@@ -1,5 +1,6 @@
 #include "renderer/reference/surface_reference.h"
 
+#include "renderer/reference/cut_out.h"
 #include "renderer/reference/incidence.h"
 #include "renderer/reference/random.h"
 #include "renderer/shading/fresnel.h"
@@ -139,8 +140,12 @@ glm::dvec3 transmittedFlux(const RayScene& rays, const SurfacePoint& point, doub
     return flux;
 }
 
+TrianglePoint placeOn(const Triangle& triangle, glm::dvec2 barycentric) {
+    return {triangle.mesh, triangle.index, barycentric.x, barycentric.y};
+}
+
 SurfacePoint pointAt(const World& world, const Triangle& triangle, glm::dvec2 barycentric) {
-    return surfacePoint(world, {triangle.mesh, triangle.index, barycentric.x, barycentric.y});
+    return surfacePoint(world, placeOn(triangle, barycentric));
 }
 
 /// The patches of one triangle, cut into `cells`.
@@ -148,8 +153,12 @@ void cutTriangle(const RayScene& rays, const Triangle& triangle, int cells, Rand
                  std::span<const Light> lights, SurfacePatches& patches) {
     const double area = triangle.area / cells;
     cutCell(wholeTriangle(rays.world(), triangle), cells, random, [&](const Cell& cell) {
-        const SurfacePoint chosen = pointAt(rays.world(), triangle, placeWithin(cell, random));
-        const glm::dvec3 flux = transmittedFlux(rays, chosen, area, lights);
+        const glm::dvec2 chosen = placeWithin(cell, random);
+        if (isCutOut(rays.world(), placeOn(triangle, chosen))) {
+            return;
+        }
+        const glm::dvec3 flux =
+            transmittedFlux(rays, pointAt(rays.world(), triangle, chosen), area, lights);
         if (flux == glm::dvec3(0.0)) {
             return;
         }

@@ -57,6 +57,9 @@ std::string materialText(const Scene& scene, const SurfaceMaterial& material) {
     if (material.doubleSided) {
         text += ", double sided";
     }
+    if (material.alphaCutoff) {
+        text += fmt::format(", cut out where alpha is below {:.3g}", *material.alphaCutoff);
+    }
     if (material.baseColorTexture.isSet()) {
         text += ", base color from " + pictureText(scene, material.baseColorTexture);
     }
@@ -150,8 +153,7 @@ std::vector<std::string> describeScene(const Scene& scene) {
                                     animation.channels.size() == 1 ? "" : "s"));
     }
     const DeformerStack none;
-    const DeformerStack& stack =
-        scene.rig && scene.rig->deformers ? *scene.rig->deformers : none;
+    const DeformerStack& stack = scene.rig && scene.rig->deformers ? *scene.rig->deformers : none;
     for (std::size_t i = 0; i < stack.size(); ++i) {
         const AnimatedDeformer& deformer = stack[i];
         const double last = deformer.lastSeconds();

@@ -33,6 +33,8 @@ void checkLooks(const JsonElement& root, std::size_t bufferViews) {
     const std::size_t textures = sizeOf(root, "textures");
     for (const JsonElement& material : root.objects("materials", "material")) {
         (void)material.numbers("emissiveFactor", 3);
+        (void)material.string("alphaMode");
+        (void)material.number("alphaCutoff");
         checkTextureReference(material, "normalTexture", textures);
         checkTextureReference(material, "occlusionTexture", textures);
         checkTextureReference(material, "emissiveTexture", textures);

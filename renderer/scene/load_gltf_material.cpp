@@ -66,7 +66,10 @@ private:
             result.ior = static_cast<float>(numberOf(ior->second, "ior", 1.5));
         }
         readSubEdit(source, result);
-        if (source.alphaMode != "OPAQUE") {
+        if (source.alphaMode == "MASK") {
+            result.alphaCutoff =
+                static_cast<float>(std::clamp(source.alphaCutoff, 0.0, 2.0)); // alpha is at most 1
+        } else if (source.alphaMode != "OPAQUE") {
             warn(fmt::format("its alpha mode {} is ignored, it is opaque",
                              excerpt(source.alphaMode)));
         }

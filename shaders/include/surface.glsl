@@ -1,4 +1,4 @@
-// What the two buffer passes know of a fragment, and of its mesh.
+// What the passes that draw the surface know of a fragment, and of its mesh; and whether there is surface at all.
 in SurfacePoint {
     vec3 position;
     vec3 normal;
@@ -7,6 +7,37 @@ in SurfacePoint {
 } surface;
 
 layout(location = 0) uniform ivec4 meshInfo; // scattering material or -1, double sided, mesh id + 1, 0
+layout(location = 1) uniform vec4 baseColor;
+layout(location = 4) uniform ivec4 textureSets; // uv set of base color, metallic-roughness, normal: -1 none
+layout(location = 5) uniform float alphaCutoff; // there is no surface where alpha is below it; -1: nowhere
+layout(location = 6) uniform mat3 textureTransforms[3];
+
+layout(binding = 0) uniform sampler2D baseColorTexture; // sRGB
+
+vec2 textureCoordinate(int index, vec2 uv, vec2 uv1) {
+    return (textureTransforms[index] * vec3(textureSets[index] == 1 ? uv1 : uv, 1.0)).xy;
+}
+
+#ifdef CUT_OUT
+// By the finest level of the texture: what is there must not depend on who looks. renderer/reference/cut_out.cpp
+// says the same to rays.
+bool isThere(vec2 uv, vec2 uv1) {
+    float alpha = baseColor.a;
+    if (textureSets.x >= 0) {
+        alpha *= textureLod(baseColorTexture, textureCoordinate(0, uv, uv1), 0.0).a;
+    }
+    return alpha >= alphaCutoff;
+}
+#endif
+
+// Last in main: derivatives taken after a discard are undefined.
+void cutOut() {
+#ifdef CUT_OUT
+    if (alphaCutoff >= 0.0 && !isThere(surface.uv, surface.uv1)) {
+        discard;
+    }
+#endif
+}
 
 // The shading normal on the side that is seen. A degenerate interpolated normal falls back to the face's.
 vec3 facingNormal(bool flip) {

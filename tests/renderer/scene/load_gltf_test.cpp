@@ -395,6 +395,27 @@ TEST_F(GltfTest, MaterialsAndTheirTextures) {
     EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("missing.png': there is no such file")));
 }
 
+TEST_F(GltfTest, AlphaModes) {
+    mGltf.addTriangle();
+    mGltf.json["materials"] = {{{"alphaMode", "MASK"}},
+                               {{"alphaMode", "MASK"}, {"alphaCutoff", 0.25}},
+                               {{"alphaMode", "OPAQUE"}, {"alphaCutoff", 0.25}},
+                               {{"alphaMode", "BLEND"}},
+                               json::object()};
+    const Scene scene = load();
+    EXPECT_EQ(scene.materials[0].alphaCutoff, 0.5f);
+    EXPECT_EQ(scene.materials[1].alphaCutoff, 0.25f);
+    for (const std::size_t opaque : {2u, 3u, 4u, 5u}) { // the last is that of no material
+        EXPECT_FALSE(scene.materials[opaque].alphaCutoff) << opaque;
+    }
+    EXPECT_THAT(scene.warnings,
+                ElementsAre(HasSubstr("material 3: its alpha mode BLEND is ignored")));
+    mGltf.json["materials"][1]["alphaCutoff"] = "low";
+    EXPECT_THAT(refused(), HasSubstr("material 1: 'alphaCutoff' is not a finite number"));
+    mGltf.json["materials"][1] = {{"alphaMode", 1}};
+    EXPECT_THAT(refused(), HasSubstr("material 1: 'alphaMode' is not a string"));
+}
+
 TEST_F(GltfTest, TextureRotationTurnsCounterClockwiseAsSeen) {
     mGltf.addTriangle();
     mGltf.json["images"] = {{{"bufferView", mGltf.addView(tinyPng())}, {"mimeType", "image/png"}}};

@@ -363,6 +363,23 @@ TEST_F(ShaderPairs, TangentSlopesBoundTheSphereTightly) {
     }
 }
 
+TEST_F(ShaderPairs, SurfacesCompileWithEveryDefineOfAScene) {
+    for (const std::vector<gl::ShaderDefine>& scene :
+         {std::vector<gl::ShaderDefine>{}, {{"CUT_OUT", "1"}}}) {
+        gl::ShaderLibrary library{std::span(shaders::embeddedShaders())};
+        library.define(scene);
+        const gl::ShaderDefine count{"MATERIAL_COUNT", "2"};
+        const gl::ShaderDefine camera{"CAMERA", "1"};
+        EXPECT_NO_THROW(
+            gl::Program("light", library, {"surface.vert", "irradiance_buffer.frag"}, {count}));
+        EXPECT_NO_THROW(gl::Program("shadow", library, {"surface.vert", "shadow_map.frag"}));
+        EXPECT_NO_THROW(gl::Program("view", library, {"surface.vert", "splatting_buffer.frag"},
+                                    {count, camera}));
+        EXPECT_NO_THROW(gl::Program("coverage", library, {"surface.vert", "splatting_buffer.frag"},
+                                    {camera, {"COVERAGE", "1"}}));
+    }
+}
+
 TEST_F(ShaderPairs, ProgramsCompileForEveryNumberOfMaterials) {
     const gl::ShaderLibrary library{std::span(shaders::embeddedShaders())};
     for (const char* const count : {"1", "2", "40"}) {
