@@ -43,6 +43,7 @@ enum Location {
     kAlphaCutoff,
     kTextureTransforms
 };
+constexpr GLuint kColorAttribute = 4;
 
 } // namespace
 
@@ -125,6 +126,12 @@ void GpuWorld::addMesh(const WorldMesh& source) {
     result.vertexArray.setAttribute(0, {.location = 1, .components = 3, .offsetBytes = 12});
     result.vertexArray.setAttribute(0, {.location = 2, .components = 2, .offsetBytes = 24});
     result.vertexArray.setAttribute(0, {.location = 3, .components = 2, .offsetBytes = 32});
+    if (!mesh.colors.empty()) {
+        result.colors = gl::Buffer::of("colors of " + mesh.name, mesh.colors);
+        result.vertexArray.setBuffer(1, result.colors, sizeof(glm::vec4));
+        result.vertexArray.setAttribute(
+            1, {.location = kColorAttribute, .components = 4, .offsetBytes = 0});
+    }
     result.vertexArray.setIndexBuffer(result.indices);
     result.indexCount = static_cast<int>(mesh.indices.size());
     result.look = mesh.material;
@@ -149,6 +156,7 @@ void GpuWorld::setBase(const gl::Program& program, const Look& look, int texture
 
 void GpuWorld::draw(const gl::Program& program, bool looks) const {
     program.use();
+    glVertexAttrib4f(kColorAttribute, 1.0f, 1.0f, 1.0f, 1.0f); // of meshes without colors
     int meshId = 0;
     for (const GpuMesh& mesh : mMeshes) {
         const Look& look = mLooks[static_cast<std::size_t>(mesh.look)];
@@ -174,6 +182,10 @@ std::vector<gl::ShaderDefine> sceneDefines(const World& world) {
     if (std::any_of(world.looks.begin(), world.looks.end(),
                     [](const SurfaceMaterial& look) { return look.alphaCutoff.has_value(); })) {
         defines.push_back({"CUT_OUT", "1"});
+    }
+    if (std::any_of(world.meshes.begin(), world.meshes.end(),
+                    [](const WorldMesh& mesh) { return !mesh.mesh.colors.empty(); })) {
+        defines.push_back({"VERTEX_COLORS", "1"});
     }
     return defines;
 }

@@ -65,6 +65,7 @@ private:
     };
     struct GpuMesh {
         gl::Buffer vertices;
+        gl::Buffer colors; ///< RGBA; empty where the mesh has none
         gl::Buffer indices;
         gl::VertexArray vertexArray;
         int indexCount = 0;
@@ -88,7 +89,8 @@ private:
 };
 
 /// What the shaders of a world are compiled with besides each pass's own, so that others do not pay
-/// for it: CUT_OUT where some surface is cut out by its alpha.
+/// for it: CUT_OUT where some surface is cut out by its alpha, VERTEX_COLORS where some mesh has
+/// them.
 [[nodiscard]] std::vector<gl::ShaderDefine> sceneDefines(const World& world);
 
 } // namespace celadon

@@ -61,7 +61,13 @@ void main() {
     if (alphaCutoff >= 0.0) { // holes have smooth rims: each sample is there or not
         int there = 0;
         for (int i = 0; i < gl_NumSamples; ++i) {
-            there |= isThere(interpolateAtSample(surface.uv, i), interpolateAtSample(surface.uv1, i)) ? 1 << i : 0;
+#ifdef VERTEX_COLORS
+            float vertexAlpha = interpolateAtSample(surface.color, i).a;
+#else
+            float vertexAlpha = 1.0;
+#endif
+            bool isSample = isThere(interpolateAtSample(surface.uv, i), interpolateAtSample(surface.uv1, i), vertexAlpha);
+            there |= isSample ? 1 << i : 0;
         }
         gl_SampleMask[0] = there;
     } else {
@@ -78,7 +84,7 @@ void main() {
         vec4 texel = texture(metallicRoughnessTexture, textureCoordinate(1));
         metallicRoughness *= texel.bg;
     }
-    vec4 base = baseColor;
+    vec4 base = baseColor * vertexColor();
     if (textureSets.x >= 0) {
         base *= texture(baseColorTexture, textureCoordinate(0));
     }

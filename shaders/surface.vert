@@ -7,12 +7,18 @@ layout(location = 0) in vec3 inPosition; // mm
 layout(location = 1) in vec3 inNormal;
 layout(location = 2) in vec2 inUv;
 layout(location = 3) in vec2 inUv1;
+#ifdef VERTEX_COLORS
+layout(location = 4) in vec4 inColor;
+#endif
 
 out SurfacePoint {
     vec3 position;
     vec3 normal;
     vec2 uv;
     vec2 uv1;
+#ifdef VERTEX_COLORS
+    vec4 color;
+#endif
 } surface;
 
 void main() {
@@ -20,6 +26,9 @@ void main() {
     surface.normal = inNormal;
     surface.uv = inUv;
     surface.uv1 = inUv1;
+#ifdef VERTEX_COLORS
+    surface.color = inColor;
+#endif
 #ifdef CAMERA
     gl_Position = frame.viewProjection * vec4(inPosition, 1.0);
     if (frame.eye.w < 0.5) {

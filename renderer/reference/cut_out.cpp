@@ -77,6 +77,9 @@ bool isCutOut(const World& world, const TrianglePoint& place) {
     const SurfaceMaterial& look = world.looks[static_cast<std::size_t>(mesh.material)];
     const TextureReference& texture = look.baseColorTexture;
     double alpha = static_cast<double>(look.baseColor.a);
+    if (!mesh.colors.empty()) {
+        alpha *= interpolated(mesh, place, mesh.colors).a;
+    }
     if (texture.isSet()) {
         const std::vector<glm::vec2>& uvs =
             texture.uvSet == 1 && !mesh.uvs1.empty() ? mesh.uvs1 : mesh.uvs;

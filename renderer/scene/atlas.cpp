@@ -209,6 +209,7 @@ void applyAtlas(const AtlasMesh& atlas, Mesh& mesh) {
     gather(atlas.sourceVertex, mesh.positions);
     gather(atlas.sourceVertex, mesh.normals);
     gather(atlas.sourceVertex, mesh.uvs1);
+    gather(atlas.sourceVertex, mesh.colors);
     gather(atlas.sourceVertex, mesh.bindingVertices);
     mesh.uvs = atlas.uvs;
     mesh.indices = atlas.indices;

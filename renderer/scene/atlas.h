@@ -45,7 +45,7 @@ struct Atlas {
 [[nodiscard]] Atlas generateAtlas(std::span<const Mesh* const> meshes,
                                   const AtlasSettings& settings = {});
 
-/// Applies: vertices are split, `uvs` replaced, normals and uvs1 carried along.
+/// Applies: vertices are split, `uvs` replaced, normals, uvs1 and colors carried along.
 void applyAtlas(const AtlasMesh& atlas, Mesh& mesh);
 
 } // namespace celadon

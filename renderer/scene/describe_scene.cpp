@@ -39,11 +39,11 @@ std::string boundsText(const Scene& scene) {
     return vectorText(low) + " to " + vectorText(high);
 }
 
-std::string uvText(const Mesh& mesh) {
-    if (mesh.uvs.empty()) {
-        return "no texture coordinates";
-    }
-    return mesh.uvs1.empty() ? "texture coordinates" : "two sets of texture coordinates";
+std::string surfaceText(const Mesh& mesh) {
+    std::string text = mesh.uvs.empty()    ? "no texture coordinates"
+                       : mesh.uvs1.empty() ? "texture coordinates"
+                                           : "two sets of texture coordinates";
+    return text + (mesh.colors.empty() ? "" : ", vertex colors");
 }
 
 std::string materialText(const Scene& scene, const SurfaceMaterial& material) {
@@ -128,7 +128,7 @@ std::vector<std::string> describeScene(const Scene& scene) {
         lines.push_back(fmt::format("mesh {}{}: {} triangle{}, {} vertices, {}, material {}", i,
                                     nameText(mesh.name), mesh.triangleCount(),
                                     mesh.triangleCount() == 1 ? "" : "s", mesh.positions.size(),
-                                    uvText(mesh), mesh.material));
+                                    surfaceText(mesh), mesh.material));
     }
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         lines.push_back(fmt::format("material {}{}: {}", i, nameText(scene.materials[i].name),

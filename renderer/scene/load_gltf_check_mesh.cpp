@@ -43,16 +43,23 @@ private:
             wanted = "VEC2";
         } else if (!isTarget && (name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_"))) {
             wanted = "VEC4";
+        } else if (!isTarget && name == "COLOR_0") {
+            wanted = "VEC3 or VEC4";
         } else {
             return;
         }
         const CheckedAccessor& accessor = mAccessors[accessorIndex(attributes, name.c_str())];
-        if (accessor.type != wanted) {
+        if (wanted.find(accessor.type) == std::string_view::npos) {
             attributes.fail(fmt::format("{} is of type {}, not {}", name, accessor.type, wanted));
         }
         if (accessor.count != vertices) {
             attributes.fail(fmt::format("{} has {} elements, but there are {} vertices", name,
                                         accessor.count, vertices));
+        }
+        if (name == "COLOR_0" && accessor.componentType != kUnsignedByte &&
+            accessor.componentType != kUnsignedShort && accessor.componentType != kFloat) {
+            attributes.fail(fmt::format("{} has component type {}, not 5121, 5123 or 5126", name,
+                                        accessor.componentType));
         }
         if (name.starts_with("JOINTS_") && accessor.componentType != kUnsignedByte &&
             accessor.componentType != kUnsignedShort) {

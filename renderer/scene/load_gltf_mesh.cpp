@@ -23,8 +23,14 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-bool isFinite(const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+template<typename Vector>
+bool isFinite(const Vector& v) {
+    for (int k = 0; k < Vector::length(); ++k) {
+        if (!std::isfinite(v[k])) {
+            return false;
+        }
+    }
+    return true;
 }
 
 std::optional<int> attribute(const std::map<std::string, int>& attributes,
@@ -68,6 +74,7 @@ public:
         }
         readUvs("TEXCOORD_0", mMesh.uvs);
         readUvs("TEXCOORD_1", mMesh.uvs1);
+        readColors();
         readMorphTargets();
         bindToNode();
         const std::vector<Triangle> triangles = readTriangles();
@@ -107,7 +114,8 @@ private:
 
     [[nodiscard]] bool isAnimated() const { return !mRig.animations.empty(); }
 
-    void checkFinite(const char* name, int accessor, const std::vector<glm::vec3>& values) const {
+    template<typename Vector>
+    void checkFinite(const char* name, int accessor, const std::vector<Vector>& values) const {
         for (std::size_t i = 0; i < values.size(); ++i) {
             if (!isFinite(values[i])) {
                 throw InputError(accessorPlace(mDocument, accessor),
@@ -118,17 +126,29 @@ private:
     }
 
     void readUvs(const char* name, std::vector<glm::vec2>& uvs) const {
-        const auto accessor = attribute(mPrimitive.attributes, name);
+        if (const auto accessor = attribute(mPrimitive.attributes, name)) {
+            uvs = readVec2(mDocument, *accessor);
+            checkFinite(name, *accessor, uvs);
+        }
+    }
+
+    /// glTF 2.0, 3.7.2.1: linear, with alpha or without, clamped to [0, 1].
+    void readColors() {
+        const auto accessor = attribute(mPrimitive.attributes, "COLOR_0");
         if (!accessor) {
             return;
         }
-        uvs = readVec2(mDocument, *accessor);
-        for (std::size_t i = 0; i < uvs.size(); ++i) {
-            if (!std::isfinite(uvs[i].x) || !std::isfinite(uvs[i].y)) {
-                throw InputError(accessorPlace(mDocument, *accessor),
-                                 fmt::format("{} of vertex {} is not finite", name, i),
-                                 "repair the mesh where it was made");
+        if (mDocument.model.accessors[static_cast<std::size_t>(*accessor)].type ==
+            TINYGLTF_TYPE_VEC4) {
+            mMesh.colors = readVec4(mDocument, *accessor);
+        } else {
+            for (const glm::vec3& color : readVec3(mDocument, *accessor)) {
+                mMesh.colors.emplace_back(color, 1.0f);
             }
+        }
+        checkFinite("COLOR_0", *accessor, mMesh.colors);
+        for (glm::vec4& color : mMesh.colors) {
+            color = glm::clamp(color, 0.0f, 1.0f);
         }
     }
 
@@ -404,6 +424,7 @@ private:
         pick(mMesh.normals);
         pick(mMesh.uvs);
         pick(mMesh.uvs1);
+        pick(mMesh.colors);
         pick(mMesh.bindingVertices);
     }
 };

@@ -66,6 +66,7 @@ struct Mesh {
     std::vector<glm::vec3> normals;     ///< unit length, one per position (computed where missing)
     std::vector<glm::vec2> uvs;         ///< (0,0) top left, v down; one per position, or empty
     std::vector<glm::vec2> uvs1;        ///< second set, or empty
+    std::vector<glm::vec4> colors;      ///< linear, multiply the base color; as uvs, or empty
     std::vector<std::uint32_t> indices; ///< three a triangle, all < positions.size()
     int material = 0;                   ///< index into Scene::materials
     std::shared_ptr<const MeshBinding> binding; ///< what moves it; null: nothing does

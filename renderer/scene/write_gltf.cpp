@@ -60,20 +60,23 @@ public:
             high = glm::max(high, positions.back());
         }
         json attributes;
-        const std::size_t place = addAccessor(std::span<const glm::vec3>(positions), "VEC3", kFloat,
-                                              kArrayBuffer);
+        const std::size_t place =
+            addAccessor(std::span<const glm::vec3>(positions), "VEC3", kFloat, kArrayBuffer);
         mAccessors[place]["min"] = toJson(low);
         mAccessors[place]["max"] = toJson(high);
         attributes["POSITION"] = place;
-        attributes["NORMAL"] = addAccessor(std::span<const glm::vec3>(mesh.normals), "VEC3", kFloat,
-                                           kArrayBuffer);
+        attributes["NORMAL"] =
+            addAccessor(std::span<const glm::vec3>(mesh.normals), "VEC3", kFloat, kArrayBuffer);
         if (!mesh.uvs.empty()) {
-            attributes["TEXCOORD_0"] = addAccessor(std::span<const glm::vec2>(mesh.uvs), "VEC2",
-                                                   kFloat, kArrayBuffer);
+            attributes["TEXCOORD_0"] =
+                addAccessor(std::span<const glm::vec2>(mesh.uvs), "VEC2", kFloat, kArrayBuffer);
         }
-        const std::size_t indices =
-            addAccessor(std::span<const std::uint32_t>(mesh.indices), "SCALAR", kUnsignedInt,
-                        kElementArrayBuffer);
+        if (!mesh.colors.empty()) {
+            attributes["COLOR_0"] =
+                addAccessor(std::span<const glm::vec4>(mesh.colors), "VEC4", kFloat, kArrayBuffer);
+        }
+        const std::size_t indices = addAccessor(std::span<const std::uint32_t>(mesh.indices),
+                                                "SCALAR", kUnsignedInt, kElementArrayBuffer);
         json made = {{"primitives", json::array({{{"attributes", attributes},
                                                   {"indices", indices},
                                                   {"material", material},
@@ -169,7 +172,8 @@ void writeGltf(const World& world, const std::vector<json>& scattering,
     buffer.replace_extension(".bin");
     const json document = writer.document(materials, escaped(buffer.filename().string()));
     subedit::writeTextFile(buffer, writer.bytes());
-    subedit::writeTextFile(file, document.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+    subedit::writeTextFile(file,
+                           document.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
 } // namespace celadon

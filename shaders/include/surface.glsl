@@ -4,6 +4,9 @@ in SurfacePoint {
     vec3 normal;
     vec2 uv;
     vec2 uv1;
+#ifdef VERTEX_COLORS
+    vec4 color;
+#endif
 } surface;
 
 layout(location = 0) uniform ivec4 meshInfo; // scattering material or -1, double sided, mesh id + 1, 0
@@ -21,8 +24,8 @@ vec2 textureCoordinate(int index, vec2 uv, vec2 uv1) {
 #ifdef CUT_OUT
 // By the finest level of the texture: what is there must not depend on who looks. renderer/reference/cut_out.cpp
 // says the same to rays.
-bool isThere(vec2 uv, vec2 uv1) {
-    float alpha = baseColor.a;
+bool isThere(vec2 uv, vec2 uv1, float vertexAlpha) {
+    float alpha = baseColor.a * vertexAlpha;
     if (textureSets.x >= 0) {
         alpha *= textureLod(baseColorTexture, textureCoordinate(0, uv, uv1), 0.0).a;
     }
@@ -30,10 +33,19 @@ bool isThere(vec2 uv, vec2 uv1) {
 }
 #endif
 
+// Of the base color.
+vec4 vertexColor() {
+#ifdef VERTEX_COLORS
+    return surface.color;
+#else
+    return vec4(1.0);
+#endif
+}
+
 // Last in main: derivatives taken after a discard are undefined.
 void cutOut() {
 #ifdef CUT_OUT
-    if (alphaCutoff >= 0.0 && !isThere(surface.uv, surface.uv1)) {
+    if (alphaCutoff >= 0.0 && !isThere(surface.uv, surface.uv1, vertexColor().a)) {
         discard;
     }
 #endif

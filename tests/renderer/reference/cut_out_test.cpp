@@ -103,6 +103,17 @@ TEST(CutOut, AlphaIsThatOfTheBaseColorAndCountsOnlyWhereItCuts) {
     EXPECT_FALSE(isCutOutAt(world, 0.25, 0.1));
 }
 
+TEST(CutOut, VertexAlphaMultiplies) {
+    World world = slabBelowSquare(50, alphaRow({255}), true);
+    world.looks[1].baseColor.a = 0.8f;
+    Mesh& mesh = world.meshes[1].mesh;
+    for (const glm::vec2 uv : mesh.uvs) {
+        mesh.colors.emplace_back(1.0f, 1.0f, 1.0f, uv.x); // 0.5 = 0.8 u at u = 0.625
+    }
+    EXPECT_TRUE(isCutOutAt(world, 0.624, 0.01));
+    EXPECT_FALSE(isCutOutAt(world, 0.626, 0.01));
+}
+
 TEST(CutOut, ShadowHasTheAreaOfWhatIsLeft) {
     // Two holes and two bars, each a quarter of the square, which covers a quarter of the slab.
     World world = slabBelowSquare(50, alphaRow({255, 0, 255, 0}), true);

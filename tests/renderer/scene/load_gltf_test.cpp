@@ -395,6 +395,41 @@ TEST_F(GltfTest, MaterialsAndTheirTextures) {
     EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("missing.png': there is no such file")));
 }
 
+TEST_F(GltfTest, VertexColorsAreLinearAndInRange) {
+    mGltf.addTriangle();
+    const auto read = [&](int accessor) {
+        mGltf.primitive()["attributes"]["COLOR_0"] = accessor;
+        return load().meshes[0].colors;
+    };
+    EXPECT_TRUE(load().meshes[0].colors.empty());
+    const int three = mGltf.addFloats({0.5f, 0, 1, 2, -1, 0.25f, 0, 0, 0}, "VEC3");
+    EXPECT_THAT(read(three), ElementsAre(glm::vec4(0.5f, 0, 1, 1), glm::vec4(1, 0, 0.25f, 1),
+                                         glm::vec4(0, 0, 0, 1)));
+    const std::vector<std::uint8_t> bytes{255, 0, 51, 102, 0, 0, 0, 0, 0, 0, 0, 255};
+    const int four = mGltf.addAccessor(mGltf.addView(bytesOf(bytes)), "VEC4", 5121, 3);
+    mGltf.json["accessors"][static_cast<std::size_t>(four)]["normalized"] = true;
+    EXPECT_THAT(read(four),
+                ElementsAre(glm::vec4(1, 0, 0.2f, 0.4f), glm::vec4(0.0f), glm::vec4(0, 0, 0, 1)));
+}
+
+TEST_F(GltfTest, VertexColorsThatMakeNoSenseAreRefused) {
+    mGltf.addTriangle();
+    const auto refusedColors = [&](int accessor) {
+        mGltf.primitive()["attributes"]["COLOR_0"] = accessor;
+        return refused();
+    };
+    EXPECT_THAT(refusedColors(mGltf.addFloats({1, 1, 1, 1, 1, 1}, "VEC3")),
+                HasSubstr("COLOR_0 has 2 elements, but there are 3 vertices"));
+    EXPECT_THAT(refusedColors(mGltf.addFloats({1, 1, 1}, "SCALAR")),
+                HasSubstr("COLOR_0 is of type SCALAR, not VEC3 or VEC4"));
+    EXPECT_THAT(refusedColors(mGltf.addFloats({1, 1, 1, 1, NAN, 1, 1, 1, 1}, "VEC3")),
+                HasSubstr("COLOR_0 of vertex 1 is not finite"));
+    const int whole = mGltf.addView(bytesOf(std::vector<std::uint32_t>(9, 1)));
+    EXPECT_THAT(refusedColors(mGltf.addAccessor(whole, "VEC3", 5125, 3)),
+                HasSubstr("COLOR_0 has component type 5125, not 5121, 5123 or 5126"));
+    EXPECT_THAT(refusedColors(99), HasSubstr("'COLOR_0' is 99, but the file has"));
+}
+
 TEST_F(GltfTest, AlphaModes) {
     mGltf.addTriangle();
     mGltf.json["materials"] = {{{"alphaMode", "MASK"}},

@@ -173,8 +173,6 @@ TEST_F(Looks, OpaquePartsAreLitThroughHoles) {
     look.alphaCutoff = 0.5f;
     const World world =
         slabBelowSquare(look, pictureOf(2, {{255, 255, 255, 0}, {255, 255, 255, 255}}), false);
-    world.meshes[0].scattering = -1; // the slab shows diffuse light; what scatters is out of view
-    world.meshes.push_back({square(-40.0f, 50.0f, 0), 0});
     FrameSettings settings = test::smallFrame(kSize, 32);
     settings.shadowSize = 512;
     // Light from the right reaches the slab below the left half, and shadows what lies further
@@ -186,6 +184,32 @@ TEST_F(Looks, OpaquePartsAreLitThroughHoles) {
     // At height 20 the shadow moves by 10 mm, 6.4 pixels, to the left: whole from x = 25.6 to 41.6.
     EXPECT_NEAR(colorAt(image, {20, 32}).g, beside, 1e-3f * beside); // through the hole
     EXPECT_EQ(colorAt(image, {28, 32}).g, 0.0f); // in the shadow, seen through it
+}
+
+TEST_F(Looks, VertexColorsMultiplyTheBaseColor) {
+    SurfaceMaterial look;
+    look.baseColor = glm::vec4(0.8f, 0.6f, 0.4f, 1.0f);
+    look.baseColorTexture = texture();
+    const Image halves = pictureOf(2, {{255, 255, 255, 255}, {0, 255, 255, 255}});
+    const World plain = slabBelowSquare(look, halves);
+    World colored = plain;
+    std::vector<glm::vec4>& colors = colored.meshes[1].mesh.colors;
+    for (const glm::vec2 uv : colored.meshes[1].mesh.uvs) {
+        colors.emplace_back(0.5f, uv.x, 0.0f, 1.0f);
+    }
+    const FrameSettings settings = test::smallFrame(kSize, 32);
+    const FloatImage before = frameOf(plain, settings).image;
+    const FloatImage after = frameOf(colored, settings).image;
+    for (const glm::ivec2 pixel : {glm::ivec2(20, 32), glm::ivec2(44, 20)}) {
+        const glm::vec3 was = colorAt(before, pixel);
+        const glm::vec3 is = colorAt(after, pixel);
+        const float u = (static_cast<float>(pixel.x) + 0.5f - 16.0f) / 32.0f;
+        EXPECT_GT(was.g, 0.1f);
+        EXPECT_NEAR(is.r, 0.5f * was.r, 1e-3f * was.r); // stored in halves
+        EXPECT_NEAR(is.g, u * was.g, 1e-3f * was.g);
+        EXPECT_EQ(is.b, 0.0f);
+    }
+    EXPECT_EQ(colorAt(after, {8, 32}), colorAt(before, {8, 32})); // meshes without are as they were
 }
 
 } // namespace

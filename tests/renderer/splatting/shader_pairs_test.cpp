@@ -365,7 +365,10 @@ TEST_F(ShaderPairs, TangentSlopesBoundTheSphereTightly) {
 
 TEST_F(ShaderPairs, SurfacesCompileWithEveryDefineOfAScene) {
     for (const std::vector<gl::ShaderDefine>& scene :
-         {std::vector<gl::ShaderDefine>{}, {{"CUT_OUT", "1"}}}) {
+         {std::vector<gl::ShaderDefine>{},
+          {{"CUT_OUT", "1"}},
+          {{"VERTEX_COLORS", "1"}},
+          {{"CUT_OUT", "1"}, {"VERTEX_COLORS", "1"}}}) {
         gl::ShaderLibrary library{std::span(shaders::embeddedShaders())};
         library.define(scene);
         const gl::ShaderDefine count{"MATERIAL_COUNT", "2"};
