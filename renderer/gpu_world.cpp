@@ -106,6 +106,7 @@ void GpuWorld::addLook(const World& world, const SurfaceMaterial& material) {
     look.textures[0] = addTexture(world, material.baseColorTexture, true);
     look.textures[1] = addTexture(world, material.metallicRoughnessTexture, false);
     look.textures[2] = addTexture(world, material.normalTexture, false);
+    look.textures[3] = addTexture(world, material.emissiveTexture, true);
     mLooks.push_back(std::move(look));
 }
 

@@ -47,7 +47,7 @@ public:
     [[nodiscard]] blocks::BoundsBlock readBounds() const;
 
 private:
-    static constexpr int kLookTextures = 3; ///< base color, metallic-roughness, normal
+    static constexpr int kLookTextures = 4; ///< base color, metallic-roughness, normal, emission
 
     struct LookTexture {
         int image = -1;

@@ -19,6 +19,7 @@ layout(location = 3) uniform vec3 emission;
 
 layout(binding = 1) uniform sampler2D metallicRoughnessTexture;
 layout(binding = 2) uniform sampler2D normalTexture;
+layout(binding = 3) uniform sampler2D emissionTexture; // sRGB
 
 vec2 textureCoordinate(int index) {
     return textureCoordinate(index, surface.uv, surface.uv1);
@@ -95,7 +96,11 @@ void main() {
     float ior = lobe.z > 0.0 ? lobe.z : (m >= 0 ? materials[max(m, 0)].profile.z : 1.5);
     outLobe = vec4(specularNormal, metallicRoughness.y);
     outBase = vec4(base.rgb, metallicRoughness.x);
-    outEmission = vec4(emission, ior);
+    vec3 emitted = emission;
+    if (textureSets.w >= 0) {
+        emitted *= texture(emissionTexture, textureCoordinate(3)).rgb;
+    }
+    outEmission = vec4(min(emitted, 65504.0), ior); // the largest half
     cutOut();
 #endif
 }

@@ -69,6 +69,13 @@ std::string materialText(const Scene& scene, const SurfaceMaterial& material) {
     if (material.normalTexture.isSet()) {
         text += ", normals from " + pictureText(scene, material.normalTexture);
     }
+    if (material.emission != glm::vec3(0.0f)) {
+        text += fmt::format(", emits ({:.3g}, {:.3g}, {:.3g}) W/m^2/sr", material.emission.x,
+                            material.emission.y, material.emission.z);
+    }
+    if (material.emissiveTexture.isSet()) {
+        text += " times " + pictureText(scene, material.emissiveTexture);
+    }
     if (material.subedit) {
         text += fmt::format(", SubEdit material '{}'", material.subedit->string());
     }

@@ -92,9 +92,10 @@ private:
                 std::max(source.emissiveFactor[static_cast<std::size_t>(k)], 0.0) * strength);
         }
         if (source.emissiveTexture.index >= 0 && result.emission != glm::vec3(0.0f)) {
-            // The factor alone would make all of it glow.
-            result.emission = glm::vec3(0.0f);
-            warn("its emissive texture is ignored, it does not emit");
+            result.emissiveTexture = reference(source.emissiveTexture);
+            if (!result.emissiveTexture.isSet()) { // the factor alone would make all of it glow
+                result.emission = glm::vec3(0.0f);
+            }
         }
     }
 

@@ -53,6 +53,7 @@ struct SurfaceMaterial {
     TextureReference metallicRoughnessTexture; ///< G roughness, B metallic
     TextureReference normalTexture;
     float normalScale = 1.0f;
+    TextureReference emissiveTexture; ///< multiplies `emission`
     /// Where the base color's alpha is below it, there is no surface. Unset: alpha is ignored.
     std::optional<float> alphaCutoff;
     std::optional<std::filesystem::path>

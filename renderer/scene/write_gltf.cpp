@@ -124,10 +124,14 @@ private:
     json mMeshes = json::array(), mNodes = json::array();
 };
 
+/// Without its pictures.
 json opaqueMaterial(const SurfaceMaterial& look) {
+    const glm::vec3 emission = look.emissiveTexture.isSet() // without, all of it would glow
+                                   ? glm::vec3(0.0f)
+                                   : glm::min(look.emission, glm::vec3(1.0f));
     return {{"name", look.name},
             {"doubleSided", look.doubleSided},
-            {"emissiveFactor", toJson(glm::min(look.emission, glm::vec3(1.0f)))},
+            {"emissiveFactor", toJson(emission)},
             {"pbrMetallicRoughness",
              {{"baseColorFactor", json::array({look.baseColor.r, look.baseColor.g, look.baseColor.b,
                                                look.baseColor.a})},

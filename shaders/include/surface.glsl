@@ -11,9 +11,9 @@ in SurfacePoint {
 
 layout(location = 0) uniform ivec4 meshInfo; // scattering material or -1, double sided, mesh id + 1, 0
 layout(location = 1) uniform vec4 baseColor;
-layout(location = 4) uniform ivec4 textureSets; // uv set of base color, metallic-roughness, normal: -1 none
+layout(location = 4) uniform ivec4 textureSets; // uv set of base color, metallic-roughness, normal, emission: -1 none
 layout(location = 5) uniform float alphaCutoff; // there is no surface where alpha is below it; -1: nowhere
-layout(location = 6) uniform mat3 textureTransforms[3];
+layout(location = 6) uniform mat3 textureTransforms[4];
 
 layout(binding = 0) uniform sampler2D baseColorTexture; // sRGB
 

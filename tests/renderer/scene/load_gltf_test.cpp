@@ -451,6 +451,29 @@ TEST_F(GltfTest, AlphaModes) {
     EXPECT_THAT(refused(), HasSubstr("material 1: 'alphaMode' is not a string"));
 }
 
+TEST_F(GltfTest, EmissiveTextures) {
+    mGltf.addTriangle();
+    mGltf.json["images"] = {{{"bufferView", mGltf.addView(tinyPng())}, {"mimeType", "image/png"}},
+                            {{"uri", "missing.png"}}};
+    mGltf.json["textures"] = {{{"source", 0}}, {{"source", 1}}};
+    const json strength = {{"KHR_materials_emissive_strength", {{"emissiveStrength", 2.5}}}};
+    mGltf.json["materials"] = {
+        {{"emissiveFactor", {1, 0.5, 0}},
+         {"emissiveTexture", {{"index", 0}, {"texCoord", 1}}},
+         {"extensions", strength}},
+        {{"emissiveTexture", {{"index", 0}}}}, // a factor of 0
+        {{"emissiveFactor", {1, 1, 1}}, {"emissiveTexture", {{"index", 1}}}}};
+    const Scene scene = load();
+    EXPECT_EQ(scene.materials[0].emission, glm::vec3(2.5f, 1.25f, 0));
+    EXPECT_TRUE(scene.materials[0].emissiveTexture.isSet());
+    EXPECT_EQ(scene.materials[0].emissiveTexture.uvSet, 1);
+    EXPECT_EQ(scene.materials[1].emission, glm::vec3(0));
+    EXPECT_EQ(scene.materials[2].emission, glm::vec3(0)); // the factor alone would make all glow
+    EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("missing.png': there is no such file")));
+    mGltf.json["materials"][0]["emissiveTexture"]["index"] = 2;
+    EXPECT_THAT(refused(), HasSubstr("'index' is 2, but the file has 2 textures"));
+}
+
 TEST_F(GltfTest, TextureRotationTurnsCounterClockwiseAsSeen) {
     mGltf.addTriangle();
     mGltf.json["images"] = {{{"bufferView", mGltf.addView(tinyPng())}, {"mimeType", "image/png"}}};

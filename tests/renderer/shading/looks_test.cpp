@@ -212,5 +212,35 @@ TEST_F(Looks, VertexColorsMultiplyTheBaseColor) {
     EXPECT_EQ(colorAt(after, {8, 32}), colorAt(before, {8, 32})); // meshes without are as they were
 }
 
+TEST_F(Looks, EmissionIsFactorTimesTextureWithoutLight) {
+    SurfaceMaterial look;
+    look.emission = glm::vec3(2.0f, 4.0f, 1e9f);
+    look.emissiveTexture = texture();
+    // sRGB 188 is 0.5029 linear (IEC 61966-2-1).
+    const World world = slabBelowSquare(look, pictureOf(2, {{255, 0, 0, 255}, {0, 188, 255, 255}}));
+    FrameSettings settings = test::smallFrame(kSize, 32);
+    settings.coverageSamples = 4;
+    const FloatImage image =
+        frameOf(world, settings, test::directionalLight({0.0, 0.0, -1.0}, glm::dvec3(0.0))).image;
+    EXPECT_EQ(colorAt(image, {24, 32}), glm::vec3(2.0f, 0.0f, 0.0f));
+    EXPECT_EQ(colorAt(image, {40, 32}).r, 0.0f);
+    EXPECT_NEAR(colorAt(image, {40, 32}).g, 4.0f * 0.5029f, 4e-3f); // stored in halves
+    EXPECT_EQ(colorAt(image, {40, 32}).b, 65504.0f);                // the largest one
+    EXPECT_EQ(colorAt(image, {8, 32}), glm::vec3(0.0f));
+}
+
+TEST_F(Looks, EmissionAddsToReflectedLight) {
+    SurfaceMaterial look;
+    const Image halves = pictureOf(2, {{255, 255, 255, 255}, {0, 0, 0, 255}});
+    const FrameSettings settings = test::smallFrame(kSize, 32);
+    const FloatImage dark = frameOf(slabBelowSquare(look, halves), settings).image;
+    look.emission = glm::vec3(0.5f);
+    look.emissiveTexture = texture();
+    const FloatImage glowing = frameOf(slabBelowSquare(look, halves), settings).image;
+    EXPECT_GT(colorAt(dark, {24, 32}).g, 0.1f);
+    EXPECT_NEAR(colorAt(glowing, {24, 32}).g - colorAt(dark, {24, 32}).g, 0.5f, 1e-6f);
+    EXPECT_EQ(colorAt(glowing, {40, 32}), colorAt(dark, {40, 32}));
+}
+
 } // namespace
 } // namespace celadon
