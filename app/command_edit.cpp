@@ -3,6 +3,7 @@
 #include "app/edit_trace.h"
 #include "app/material/exchange_json.h"
 #include "app/option_takers.h"
+#include "app/render_motion.h"
 #include "app/render_options.h"
 #include "app/render_scene.h"
 #include "subedit/errors.h"
@@ -55,6 +56,15 @@ void addScene(CLI::App& app, RenderOptions& o) {
                   [&o](const Argument& a) { o.lights.push_back(parseText(a)); });
     addOption(app, "--environment", {group, "FILE", "A latitude-longitude .hdr or .exr"},
               takeText(o.environment));
+    addOption(app, "--animation",
+              {group, "NAME|N",
+               "Which of the glTF's animations, by name or number from 0; default: the first"},
+              takeText(o.animation));
+    addOption(app, "--time", {group, "S", "The moment that is shown first, seconds; default 0"},
+              takeNumber(o.timeSeconds, kNotNegative));
+    addRepeatable(app, "--deform",
+                  {group, "DEFORM", "As 'celadon render' has it; repeatable, in order"},
+                  [&o](const Argument& a) { o.deformations.push_back(parseText(a)); });
 }
 
 void addWindow(CLI::App& app, EditOptions& o) {
@@ -151,6 +161,16 @@ void edit(EditOptions o) {
         if (scene.environment) {
             session.perform({"environment.open", {{"file", scene.environment->string()}}});
         }
+        ui::MotionSetting motion = session.motion.now;
+        if (auto deformers = readDeformations(scene.deformations)) {
+            motion.deformers = std::move(*deformers);
+        }
+        if (scene.animation) {
+            motion.animation = findAnimation(session.world().rig.get(), *scene.animation);
+        }
+        motion.seconds = scene.timeSeconds.value_or(0.0);
+        session.setMotion(std::move(motion));
+        session.markDeformersSaved();
         session.view.exposureEv = static_cast<float>(exposure);
         session.touchPicture();
     };

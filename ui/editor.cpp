@@ -3,6 +3,7 @@
 #include "subedit/errors.h"
 #include "ui/background_jobs.h"
 #include "ui/background_open.h"
+#include "ui/deform_controls.h"
 #include "ui/file_actions.h"
 #include "ui/file_watch.h"
 #include "ui/journal.h"
@@ -50,7 +51,8 @@ private:
     void worldOpened();
     void recover(const Recovery& recovery);
     void offerRecovery();
-    void playTurntable();
+    /// Turntable and motion go on with the clock, as fast as pictures come. @return whether they did
+    bool play();
     void drawFrame();
     void drawContents();
     void handleInput();
@@ -59,7 +61,10 @@ private:
     void addWindowCommands();
     void keepJournal();
     void takeScreenshot(const std::filesystem::path& file);
+    /// Plays, or stops at the moment that is shown; where nothing changes over time, the turntable.
+    void togglePlay();
     [[nodiscard]] nlohmann::json state() const;
+    [[nodiscard]] nlohmann::json chosenControlPlace() const; ///< window pixels; null: none
     [[nodiscard]] bool mustDraw() const;
     [[nodiscard]] double secondsToFrame() const; ///< until the next one may be drawn
     [[nodiscard]] double secondsToSleep() const;
@@ -82,7 +87,7 @@ private:
     std::optional<Recovery> mRecovery; ///< to be replayed once its model is open
     bool mIsPlaced = false;
     std::uint64_t mSeenWorld = 0;
-    std::optional<std::chrono::steady_clock::time_point> mTurning; ///< time of the last turn
+    std::chrono::steady_clock::time_point mPlayedUntil; ///< what turns or plays has come so far
     bool mShouldClose = false;
     int mFramesToDraw = kSettlingFrames;
     std::chrono::steady_clock::time_point mNextFrame;
@@ -135,7 +140,7 @@ void Editor::addWindowCommands() {
                                  Dispatcher::Handler handler) {
         commands.add(name, summary, std::move(handler), false);
     };
-    add("window.tab", "Shows a tab of the side bar: brush, profile, material, light, view",
+    add("window.tab", "Shows a tab of the side bar: brush, profile, material, light, deform, view",
         [this](const Arguments& a) { mLayout.tab = parseTab(a.text("name")); });
     add("window.show", "Shows or hides panels, help, preferences", [this](const Arguments& a) {
         mLayout.panelsShown = a.flag("panels", mLayout.panelsShown);
@@ -176,6 +181,8 @@ void Editor::setActions() {
     mActions.openMaterial = [this] { mFiles.openMaterial(); };
     mActions.openEnvironment = [this] { mFiles.openEnvironment(); };
     mActions.openStamp = [this] { mFiles.openStamp(); };
+    mActions.openDeformers = [this] { mFiles.openDeformers(); };
+    mActions.saveDeformers = [this] { mFiles.saveDeformers(); };
     mActions.save = [this] { mFiles.save(); };
     mActions.saveAs = [this] { mFiles.saveAs(); };
     mActions.saveAsNew = [this](const std::string& name) { mFiles.saveAsNew(name); };
@@ -199,10 +206,8 @@ void Editor::setActions() {
     };
     mActions.cancelJobs = [this] { mJobs.cancelShown(); };
     mActions.toggleFullScreen = [this] { mWindow.toggleFullScreen(); };
-    mActions.toggleTurntable = [this] {
-        mTurning = mTurning ? std::nullopt : std::optional(std::chrono::steady_clock::now());
-        mLayout.isTurning = mTurning.has_value();
-    };
+    mActions.togglePlay = [this] { togglePlay(); };
+    mActions.toggleTurntable = [this] { mLayout.isTurning = !mLayout.isTurning; };
     mActions.quit = [this] { mFiles.guard([this] { mShouldClose = true; }); };
     mActions.preferencesChanged = [this] {
         if (mPreferences.uiScale > 0.0) {
@@ -251,7 +256,11 @@ void Editor::step() {
         --mFramesToDraw;
         drawFrame();
     }
-    if (mViewport.update(mSession)) {
+    bool mustRedraw = mViewport.update(mSession);
+    if (play()) { // the next picture is begun at once
+        mustRedraw |= mViewport.update(mSession);
+    }
+    if (mustRedraw) {
         mFramesToDraw = std::max(mFramesToDraw, 1);
     }
     mTruth.update(mSession, mViewport.rect().size, mViewport.isAtRest(mSession));
@@ -270,10 +279,13 @@ void Editor::step() {
 }
 
 Script::Progress Editor::progress() const {
+    // What plays is never still: any picture of it will do.
+    const bool isStill = mSession.motion.isPlaying
+                             ? mViewport.shownRung() >= 0
+                             : mViewport.isSettled(mSession) && mFramesToDraw == 0;
     const bool isTruthAwaited =
         mSession.view.mode.mode == ViewMode::Difference && !mTruth.isComplete(mSession);
-    return {!mOpen.isRunning() && mViewport.isSettled(mSession) && mFramesToDraw == 0 &&
-                mJobs.isIdle() && !isTruthAwaited,
+    return {!mOpen.isRunning() && isStill && mJobs.isIdle() && !isTruthAwaited,
             !mJobs.isIdle(), mViewport.shownRevision()};
 }
 
@@ -300,7 +312,7 @@ double Editor::secondsToSleep() const {
     if (mOpen.isRunning() || mJobs.running()) {
         atMost(0.25); // the status bar shows how far it is
     }
-    if (mTurning) {
+    if (mLayout.isTurning || mSession.motion.isPlaying) {
         atMost(0.02);
     }
     if (mOptions.watch) {
@@ -340,7 +352,6 @@ void Editor::poll() {
         mFiles.drop(file);
         mFramesToDraw = kSettlingFrames;
     }
-    playTurntable();
 }
 
 void Editor::pollOpening() {
@@ -387,16 +398,38 @@ void Editor::recover(const Recovery& recovery) {
     std::filesystem::remove(recovery.file, ignored);
 }
 
-/// Once around in ten seconds, as fast as pictures come.
-void Editor::playTurntable() {
-    if (!mTurning || !mSession.hasWorld() || mViewport.isWaiting()) {
-        return;
-    }
+bool Editor::play() {
     const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - *mTurning).count();
-    mTurning = now;
-    mSession.perform({"camera.turntable", {{"degrees", kTurnDegreesPerSecond * seconds}}});
-    mFramesToDraw = std::max(mFramesToDraw, 1);
+    const bool isOn = mLayout.isTurning || mSession.motion.isPlaying;
+    if (!isOn || !mSession.hasWorld()) {
+        mPlayedUntil = now;
+        return false;
+    }
+    if (mViewport.isWaiting()) {
+        return false; // no moment is skipped for one that would never be shown
+    }
+    const double seconds = std::chrono::duration<double>(now - mPlayedUntil).count();
+    mPlayedUntil = now;
+    if (mLayout.isTurning) {
+        mSession.perform({"camera.turntable", {{"degrees", kTurnDegreesPerSecond * seconds}}});
+    }
+    if (mSession.motion.isPlaying && !mSession.advanceTime(seconds)) {
+        togglePlay();
+    }
+    return true;
+}
+
+void Editor::togglePlay() {
+    MotionState& motion = mSession.motion;
+    const double duration = mSession.hasWorld() ? mSession.mover().durationSeconds() : 0.0;
+    if (motion.isPlaying || duration > 0.0) {
+        const bool isOver = !motion.isPlaying && !motion.loops && motion.now.seconds >= duration;
+        mSession.perform({"motion.play",
+                          {{"on", !motion.isPlaying},
+                           {"seconds", isOver ? 0.0 : motion.now.seconds}}});
+    } else {
+        mActions.toggleTurntable();
+    }
 }
 
 void Editor::drawContents() {
@@ -470,6 +503,16 @@ void Editor::advanceScript() {
     mShouldClose |= step.isOver;
 }
 
+nlohmann::json Editor::chosenControlPlace() const {
+    for (const DeformControl& control : shownControls(mSession)) {
+        if (control.index == mSession.motion.control) {
+            const glm::dvec2 at = seenAt(mSession.camera, control.shownMm, mViewport.rect());
+            return {std::round(at.x), std::round(at.y)};
+        }
+    }
+    return nullptr;
+}
+
 nlohmann::json Editor::state() const {
     const ViewportRect& rect = mViewport.rect();
     const subedit::Document* const document = mSession.activeDocument();
@@ -485,7 +528,11 @@ nlohmann::json Editor::state() const {
             {"pictureMs", std::round(mViewport.shown().timeMs)},
             {"modified", mSession.isModified()},
             {"asking", mFiles.isAsking()},
-            {"undo", document != nullptr && document->canUndo()},
+            {"undo", mSession.undoTitle().has_value()},
+            {"playing", mSession.motion.isPlaying},
+            {"seconds", mSession.motion.now.seconds},
+            {"deformers", mSession.motion.now.deformers.size()},
+            {"control", chosenControlPlace()},
             {"strokes", document != nullptr ? document->commandCount() : 0},
             {"notices", mSession.notices.empty() ? "" : mSession.notices.back().text}};
 }

@@ -1,5 +1,6 @@
 #include "ui/file_actions.h"
 
+#include "renderer/scene/load_deformers.h"
 #include "subedit/errors.h"
 #include "ui/user_folders.h"
 
@@ -32,7 +33,12 @@ FileActions::FileActions(Session& session, BackgroundOpen& open, Preferences& pr
       mIsUnattended(isUnattended) {}
 
 void FileActions::open(const OpenRequest& request) {
-    guard([this, request] { mOpen.start(request); });
+    const std::function<void()> act = [this, request] { mOpen.start(request); };
+    if (request.model == mSession.opened().model) { // which keeps its deformers
+        guardMaterial(act);
+    } else {
+        guard(act);
+    }
 }
 
 void FileActions::openModel() {
@@ -59,6 +65,36 @@ void FileActions::openStamp() {
            {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".exr", ".hdr"}, "",
            [this](const auto& file) {
                mSession.perform({"stamp.open", {{"file", file.string()}}});
+           });
+}
+
+void FileActions::openDeformers() {
+    choose(FileDialog::Kind::Open, "Open deformers", {".json"}, "",
+           [this](const auto& file) { replaceDeformers(file); });
+}
+
+void FileActions::replaceDeformers(const std::filesystem::path& file) {
+    try {
+        if (mSession.perform(
+                {"deform.stack", loaders::deformersJson(loaders::readDeformers(file))})) {
+            mSession.markDeformersSaved();
+        }
+    } catch (const Error& error) {
+        mSession.notify(Notice::Kind::Error, error.what());
+    }
+}
+
+void FileActions::saveDeformers(const std::function<void()>& then) {
+    const std::string model = std::filesystem::path(mSession.opened().model).extension().string();
+    std::vector<std::string> suffixes{".json"};
+    if (model == ".glb" || model == ".gltf") {
+        suffixes.push_back(model);
+    }
+    choose(FileDialog::Kind::Save, "Save the deformers", suffixes, "deformers.json",
+           [this, then](const auto& file) {
+               if (mSession.perform({"deform.save", {{"file", file.string()}}}) && then) {
+                   then();
+               }
            });
 }
 
@@ -149,12 +185,29 @@ void FileActions::drop(const std::filesystem::path& file) {
         mSession.perform({"environment.open", {{"file", file.string()}}});
     } else if (name.ends_with(".png") || name.ends_with(".jpg") || name.ends_with(".jpeg")) {
         mSession.perform({"stamp.open", {{"file", file.string()}}});
+    } else if (name.ends_with(".json")) {
+        replaceDeformers(file);
     } else {
         open({file.string(), {}});
     }
 }
 
 void FileActions::guard(const std::function<void()>& act) {
+    guardMaterial([this, act] { guardDeformers(act); });
+}
+
+void FileActions::guardDeformers(const std::function<void()>& act) {
+    if (!mSession.areDeformersModified() || mIsUnattended) {
+        act();
+        return;
+    }
+    ask("Unsaved changes", "The deformers have changes that are not saved.",
+        {{"Save\xe2\x80\xa6", [this, act] { saveDeformers(act); }},
+         {"Do not save", act},
+         {"Cancel", {}}});
+}
+
+void FileActions::guardMaterial(const std::function<void()>& act) {
     if (!mSession.isModified() || mIsUnattended) {
         act();
         return;

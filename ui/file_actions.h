@@ -28,6 +28,9 @@ public:
     void openMaterial();
     void openEnvironment();
     void openStamp();
+    void openDeformers();
+    /// @param then once they are saved
+    void saveDeformers(const std::function<void()>& then = {});
     /// @param then once it is saved
     void save(const std::function<void()>& then = {});
     void saveAs(const std::function<void()>& then = {});
@@ -58,6 +61,9 @@ private:
     void choose(FileDialog::Kind kind, const std::string& title, std::vector<std::string> suffixes,
                 const std::string& name, std::function<void(const std::filesystem::path&)> done);
     bool saveTo(const std::filesystem::path& file);
+    void replaceDeformers(const std::filesystem::path& file);
+    void guardMaterial(const std::function<void()>& act);
+    void guardDeformers(const std::function<void()>& act);
 
     Session& mSession;
     BackgroundOpen& mOpen;

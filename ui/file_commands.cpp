@@ -1,4 +1,5 @@
 // Commands about files.
+#include "renderer/scene/load_deformers.h"
 #include "renderer/scene/write_gltf.h"
 #include "subedit/errors.h"
 #include "subedit/map/material_file.h"
@@ -9,6 +10,26 @@
 namespace celadon::ui {
 
 namespace {
+
+/// The same deformers in other model units. @param factor new units per old unit
+DeformerStack inUnits(DeformerStack stack, double factor) {
+    const auto scale = [factor](KeyedNumbers& numbers) {
+        for (double& value : numbers.values) {
+            value *= factor;
+        }
+    };
+    for (AnimatedDeformer& deformer : stack) {
+        for (LatticeMove& move : deformer.moves) {
+            scale(move.by);
+        }
+        for (Handle& handle : deformer.handles) {
+            handle.at *= factor;
+            handle.radius *= factor;
+            scale(handle.move);
+        }
+    }
+    return stack;
+}
 
 /// FILE.gltf, FILE.bin, and a material file for each material that is worn.
 void exportGltf(Session& session, const std::filesystem::path& file) {
@@ -30,7 +51,13 @@ void exportGltf(Session& session, const std::filesystem::path& file) {
         subedit::writeMaterial(document->material(), file.parent_path() / name);
         materials.push_back(session.services().describeMaterial(document->material(), name));
     }
-    writeGltf(session.world(), materials, file);
+    nlohmann::json extras = nlohmann::json::object();
+    if (const DeformerStack& stack = session.motion.now.deformers; !stack.empty()) {
+        constexpr double kMmPerMeter = 1e3;
+        extras["celadon"] = loaders::deformersJson(
+            inUnits(stack, session.world().millimetersPerUnit / kMmPerMeter));
+    }
+    writeGltf(session.world(), materials, extras, file);
     session.notify(Notice::Kind::Info,
                    fmt::format("Exported '{}' with {} beside it", file.string(),
                                materials.size() > 1 ? "its materials" : "its material"));

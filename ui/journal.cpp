@@ -44,9 +44,11 @@ bool belongsToLiving(const std::filesystem::path& file) {
 
 } // namespace
 
-bool changesMaterial(const Command& command) {
+bool changesWork(const Command& command) {
     return command.name == "paint.edit" || command.name == "edit.undo" ||
-           command.name == "edit.redo" || command.name == "material.activate";
+           command.name == "edit.redo" || command.name == "material.activate" ||
+           command.name == "motion.animation" ||
+           (command.name.starts_with("deform.") && command.name != "deform.save");
 }
 
 Journal::Journal(std::filesystem::path folder) : mFolder(std::move(folder)) {}
@@ -66,7 +68,7 @@ void Journal::begin(const OpenRequest& opened) {
 }
 
 std::optional<std::string> Journal::add(const Command& command) {
-    if (!changesMaterial(command) || mHasFailed) {
+    if (!changesWork(command) || mHasFailed) {
         return std::nullopt;
     }
     if (!mStream.is_open()) {

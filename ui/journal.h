@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-/// What was done to materials since they were opened, on disk as it happens: after a crash a replay
-/// brings it back, but for a stroke that was under way. One file a session, gone when the session
-/// ends well.
+/// What was done to materials and deformers since they were opened, on disk as it happens: after a
+/// crash a replay brings it back, but for a stroke that was under way. One file a session, gone
+/// when it ends well.
 ///
 /// A replay starts from the material as it was opened. When the session saves over that file, it is
 /// kept beside the journal, so that steps, and undoing them, go on meaning the same after a save.
@@ -27,7 +27,7 @@ public:
 
     /// Another scene: earlier entries are of no use.
     void begin(const OpenRequest& opened);
-    /// Keeps it if it changes a material. Failures to write are said once.
+    /// Keeps it if it changes a material or the deformers. Failures to write are said once.
     /// @return what went wrong, the first time
     [[nodiscard]] std::optional<std::string> add(const Command& command);
     /// To be called before a file is saved over: if it is the material that was opened, it is kept.
@@ -58,7 +58,7 @@ struct Recovery {
 [[nodiscard]] std::optional<Recovery> findRecovery(const std::filesystem::path& folder);
 /// Removes a journal and what was kept beside it.
 void discard(const Recovery& recovery);
-/// Whether a command is kept in a journal.
-[[nodiscard]] bool changesMaterial(const Command& command);
+/// Whether a command is kept in a journal: it changes a material or the deformers.
+[[nodiscard]] bool changesWork(const Command& command);
 
 } // namespace celadon::ui

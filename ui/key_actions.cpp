@@ -1,6 +1,8 @@
 #include "ui/key_actions.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace celadon::ui {
 
@@ -8,6 +10,7 @@ namespace {
 
 constexpr double kTurnDegrees = 15.0;
 constexpr double kResize = 1.15;
+constexpr double kStepsPerSecond = 24.0;
 
 /// Keys that are one command, whatever else there is.
 struct FixedCommand {
@@ -47,6 +50,25 @@ void pickProfile(const KeyTargets& t) {
     if (const auto hit = t.tools.pick(t.tools.cursor(), t.viewport); hit && hit->material >= 0) {
         t.session.perform(
             {"profile.pick", {{"material", hit->material}, {"uv", {hit->uv.x, hit->uv.y}}}});
+    }
+}
+
+/// To the next or the last whole frame, standing still.
+void step(Session& session, double frames) {
+    if (session.hasWorld()) {
+        const double frame = std::round(session.motion.now.seconds * kStepsPerSecond) + frames;
+        session.perform({"motion.play",
+                         {{"on", false}, {"seconds", std::max(frame, 0.0) / kStepsPerSecond}}});
+    }
+}
+
+void setKey(const KeyTargets& t) {
+    const MotionState& motion = t.session.motion;
+    if (t.layout.tab == Tab::Deform && motion.selected >= 0) {
+        t.session.perform({"deform.key",
+                           {{"deformer", motion.selected},
+                            {"control", motion.control},
+                            {"seconds", motion.now.seconds}}});
     }
 }
 
@@ -124,7 +146,19 @@ void performAction(Action action, const KeyTargets& t) {
         t.actions.openModel();
         break;
     case Action::Play:
+        t.actions.togglePlay();
+        break;
+    case Action::Turntable:
         t.actions.toggleTurntable();
+        break;
+    case Action::StepBack:
+        step(t.session, -1.0);
+        break;
+    case Action::StepOn:
+        step(t.session, 1.0);
+        break;
+    case Action::Key:
+        setKey(t);
         break;
     default:
         break;

@@ -2,6 +2,7 @@
 
 #include "subedit/errors.h"
 #include "ui/panels/brush_panel.h"
+#include "ui/panels/deform_panel.h"
 #include "ui/panels/help_window.h"
 #include "ui/panels/light_panel.h"
 #include "ui/panels/material_panel.h"
@@ -34,10 +35,11 @@ struct Named {
     const char* label;
     std::string_view word;
 };
-constexpr std::array<Named, 5> kTabs{{{Tab::Brush, "Brush", "brush"},
+constexpr std::array<Named, 6> kTabs{{{Tab::Brush, "Brush", "brush"},
                                       {Tab::Profile, "Profile", "profile"},
                                       {Tab::Materials, "Material", "material"},
                                       {Tab::Light, "Light", "light"},
+                                      {Tab::Deform, "Deform", "deform"},
                                       {Tab::View, "View", "view"}}};
 
 /// Side bar that leaves at least half of a narrow window to the picture.
@@ -76,6 +78,9 @@ void drawPanel(const LayoutContext& context) {
         break;
     case Tab::Light:
         drawLightPanel(context.session);
+        break;
+    case Tab::Deform:
+        drawDeformPanel(context);
         break;
     case Tab::Brush:
         drawBrushPanel(context);
@@ -121,7 +126,7 @@ Tab parseTab(std::string_view word) {
         }
     }
     throw UsageError(fmt::format("tab '{}'", word), "there is no such tab",
-                     "choose brush, profile, material, light or view");
+                     "choose brush, profile, material, light, deform or view");
 }
 
 ViewportRect viewportRect(glm::ivec2 windowPx, const LayoutState& state, float scale) {
@@ -139,6 +144,9 @@ ViewportRect viewportRect(glm::ivec2 windowPx, const LayoutState& state, float s
 }
 
 void drawLayout(const LayoutContext& context) {
+    MotionState& motion = context.session.motion;
+    motion.areControlsShown = context.state.tab == Tab::Deform;
+    motion.isAddingHandles &= motion.areControlsShown;
     if (context.state.panelsShown) {
         drawViewportHint(context);
         drawMenuBar(context);

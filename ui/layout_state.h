@@ -17,17 +17,18 @@
 /// What the frame around the viewport shows, and what it asks the editor for.
 namespace celadon::ui {
 
-enum class Tab { Brush, Profile, Materials, Light, View };
+enum class Tab { Brush, Profile, Materials, Light, Deform, View };
 /// @throws UsageError
 [[nodiscard]] Tab parseTab(std::string_view word);
 
 /// What the panels ask the editor for; everything else is a command.
 struct LayoutActions {
     std::function<void()> openModel, openMaterial, openEnvironment, openStamp;
+    std::function<void()> openDeformers, saveDeformers;
     std::function<void()> save, saveAs, savePicture, exportGltf, quit;
     std::function<void(const std::string&)> saveAsNew; ///< a material of that name
     std::function<void(int frames)> saveTurntable;
-    std::function<void()> toggleTurntable, cancelJobs;
+    std::function<void()> togglePlay, toggleTurntable, cancelJobs;
     std::function<void()> preferencesChanged;
     std::function<void(const std::string&)> open;  ///< a recent file or builtin
     std::function<void(const std::string&)> putOn; ///< a material, by name or file

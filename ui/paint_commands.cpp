@@ -11,14 +11,18 @@ namespace celadon::ui {
 
 namespace {
 
+void refuseDuringStroke(const Session& session) {
+    if (session.isStrokeOpen()) {
+        throw UsageError("painting", "a stroke is under way");
+    }
+}
+
 subedit::Document& documentOf(Session& session, int material) {
     subedit::Document* const document = session.document(material);
     if (document == nullptr) {
         throw UsageError("painting", "there is no material to paint on", "open a model first");
     }
-    if (session.isStrokeOpen()) {
-        throw UsageError("painting", "a stroke is under way");
-    }
+    refuseDuringStroke(session);
     return *document;
 }
 
@@ -158,14 +162,17 @@ void addPaintCommands(Session& session) {
                      documentOf(session, material).execute(edit);
                      session.touchMaterial();
                  });
-    commands.add("edit.undo", "Takes back the last change of the material",
+    commands.add("edit.undo", "Takes back the last change of the material or of the deformers",
                  [&session](const Arguments&) {
-                     if (documentOf(session, session.activeMaterial).undo()) {
+                     refuseDuringStroke(session);
+                     if (!session.undoMotion() &&
+                         documentOf(session, session.activeMaterial).undo()) {
                          session.touchMaterial();
                      }
                  });
     commands.add("edit.redo", "Repeats what was taken back", [&session](const Arguments&) {
-        if (documentOf(session, session.activeMaterial).redo()) {
+        refuseDuringStroke(session);
+        if (!session.redoMotion() && documentOf(session, session.activeMaterial).redo()) {
             session.touchMaterial();
         }
     });

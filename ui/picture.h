@@ -7,6 +7,7 @@
 #include "renderer/shading/view_mode_pass.h"
 #include "subedit/map/texel_rect.h"
 #include "subedit/paint/surface.h"
+#include "ui/motion_state.h"
 #include "ui/quality_ladder.h"
 
 #include <cstdint>
@@ -27,6 +28,7 @@ struct PictureRequest {
     std::vector<Light> lights;
     Environment environment;
     bool specular = true;
+    MotionSetting motion;
     WindowDisplay display;
     ViewModeSettings view;
     int overlayMaterial = -1;     ///< whose selection is drawn over the picture

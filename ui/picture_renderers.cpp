@@ -78,7 +78,9 @@ void PictureRenderers::setWorld(std::shared_ptr<const World> world,
                                 std::vector<std::shared_ptr<subedit::MaterialMap>> materials) {
     dropScene();
     mSelections.clear();
+    mMotion.reset();
     mWorld = std::move(world);
+    mMotion = std::make_unique<Motion>(*mWorld);
     mMaterials = std::move(materials);
     makeScene();
 }
@@ -87,7 +89,41 @@ void PictureRenderers::dropScene() {
     mReady.clear();
     mToneMap.reset();
     mViewMode.reset();
+    mDeformation.reset();
+    mMovedTo.reset();
+    mUnseen.reset();
     mScene.reset();
+}
+
+void PictureRenderers::move(const MotionSetting& wanted) {
+    if (mMovedTo == wanted) {
+        return;
+    }
+    mMotion->setDeformers(wanted.deformers);
+    mMotion->selectAnimation(wanted.animation);
+    if (!mDeformation && !mMotion->moves()) {
+        return;
+    }
+    Pose pose = mMotion->at(wanted.seconds);
+    if (!mDeformation) {
+        mDeformation = std::make_unique<GpuDeformation>(mScene->shaders, *mWorld, mScene->gpuWorld);
+    }
+    mMovedTo.reset();
+    mDeformation->apply(pose);
+    mMovedTo = wanted;
+    mUnseen = std::move(pose);
+    for (const Ready& entry : mReady) {
+        entry.renderer->geometryChanged();
+    }
+}
+
+void PictureRenderers::checkMove() {
+    if (mUnseen) {
+        const Pose pose = *std::exchange(mUnseen, std::nullopt);
+        std::optional<MotionSetting> wanted = std::exchange(mMovedTo, std::nullopt);
+        static_cast<void>(mDeformation->bounds(pose));
+        mMovedTo = std::move(wanted);
+    }
 }
 
 void PictureRenderers::makeScene() {
@@ -183,6 +219,7 @@ std::optional<Picture> PictureRenderers::render(const PictureRequest& request,
         picture.rgba = std::move(pixels.rgba);
         return finish(std::move(picture));
     }
+    move(request.motion);
     Picture picture;
     FrameRenderer& renderer = rendererFor(request, picture.isFirst);
     std::vector<Light> lights = request.lights;
@@ -207,6 +244,7 @@ std::optional<Picture> PictureRenderers::render(const PictureRequest& request,
         picture.counts = stats.samples;
     }
     develop(request, *radiance, renderer, picture);
+    checkMove();
     if (looksAtLight(request.view.mode)) {
         explainLight(request, renderer, picture);
     }

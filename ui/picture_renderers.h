@@ -1,6 +1,8 @@
 #pragma once
 
 #include "renderer/frame_renderer.h"
+#include "renderer/gpu_deformation.h"
+#include "renderer/scene/motion.h"
 #include "ui/picture.h"
 
 #include <atomic>
@@ -38,6 +40,11 @@ private:
         FrameSettings settings;
         std::unique_ptr<FrameRenderer> renderer;
     };
+    /// Moves the vertices to where a picture wants them, if they are not there.
+    /// @throws InputError where they cannot be
+    void move(const MotionSetting& wanted);
+    /// Once a picture is made of it. @throws InputError where vertices are beyond all numbers
+    void checkMove();
     void makeScene();
     void dropScene();
     FrameRenderer& rendererFor(const PictureRequest& request, bool& isNew);
@@ -50,9 +57,13 @@ private:
     void explainLight(const PictureRequest& request, FrameRenderer& renderer, Picture& picture);
 
     const gl::Context& mContext;
-    std::shared_ptr<const World> mWorld;
+    std::shared_ptr<const World> mWorld; ///< at rest
     std::vector<std::shared_ptr<subedit::MaterialMap>> mMaterials;
     std::shared_ptr<GpuScene> mScene;
+    std::unique_ptr<Motion> mMotion;              ///< of mWorld
+    std::unique_ptr<GpuDeformation> mDeformation; ///< once something has moved
+    std::optional<MotionSetting> mMovedTo;        ///< where it has put the vertices
+    std::optional<Pose> mUnseen;                  ///< the same, until a picture has shown it
     std::list<Ready> mReady; ///< latest used first
     std::unique_ptr<ToneMapPass> mToneMap;
     std::unique_ptr<ViewModePass> mViewMode;

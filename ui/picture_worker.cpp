@@ -1,6 +1,7 @@
 #include "ui/picture_worker.h"
 
 #include "renderer/gl/context_glfw.h"
+#include "subedit/errors.h"
 #include "ui/picture_renderers.h"
 
 #include <exception>
@@ -109,6 +110,8 @@ void PictureWorker::run() {
                     picture = renderers->render(*request, mInterrupt);
                 }
             }
+        } catch (const InputError& error) { // a shape that cannot be: renderers are as they were
+            problem = error.what();
         } catch (const std::exception& error) {
             if (renderers) {
                 renderers->dropRenderers();

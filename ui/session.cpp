@@ -11,8 +11,10 @@ namespace celadon::ui {
 Session::Session(SessionServices services) : mServices(std::move(services)) {
     addBrushCommands(*this);
     addCameraCommands(*this);
+    addDeformCommands(*this);
     addFileCommands(*this);
     addLightCommands(*this);
+    addMotionCommands(*this);
     addPaintCommands(*this);
     addProfileCommands(*this);
     addSpreadCommands(*this);
@@ -46,6 +48,8 @@ void Session::adopt(const OpenRequest& request, OpenedScene scene) {
     }
     const bool isSameModel = mWorld != nullptr && mOpened.model == request.model;
     mStrokeMaterial = -1;
+    mShownWorld.reset();
+    mMover.reset();
     mWorld = std::make_shared<const World>(std::move(scene.world));
     mRendered = std::move(scene.rendered);
     mDocuments = std::move(scene.documents);
@@ -71,6 +75,7 @@ void Session::adopt(const OpenRequest& request, OpenedScene scene) {
         selectedLight = 0;
         paint.brush.radiusMm = static_cast<float>(0.08 * mWorld->scatteringSphere.radius);
     }
+    adoptMotion(isSameModel);
     ++mWorldRevision;
     touchPicture();
 }

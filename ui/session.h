@@ -1,10 +1,13 @@
 #pragma once
 
 #include "renderer/output/tone_map.h"
+#include "renderer/scene/motion.h"
 #include "renderer/scene/world.h"
 #include "renderer/shading/view_mode_pass.h"
 #include "ui/command.h"
 #include "ui/light_rig.h"
+#include "ui/motion_history.h"
+#include "ui/motion_state.h"
 #include "ui/opened_scene.h"
 #include "ui/paint_state.h"
 
@@ -101,8 +104,34 @@ public:
     void touchMaterial();
     [[nodiscard]] bool isModified() const { return mMaterialRevision != mSavedRevision; }
     void markSaved() { mSavedRevision = mMaterialRevision; }
+    /// What edit.undo and edit.redo would do; nothing: there is nothing.
+    [[nodiscard]] std::optional<std::string> undoTitle() const;
+    [[nodiscard]] std::optional<std::string> redoTitle() const;
+
+    // Motion (session_motion.cpp).
+    /// Shows the model so from now on. @throws celadon::Error where it cannot be; nothing changes
+    void setMotion(MotionSetting next);
+    /// The same as a step that can be undone. @param continues see MotionHistory::add
+    void changeMotion(MotionSetting next, const std::string& title, bool continues = false);
+    /// @return whether there was one, that nothing was painted after
+    bool undoMotion();
+    bool redoMotion();
+    /// Which deformer, and which of its controls, the panel and the viewport show; -1: none.
+    void chooseDeformer(int index, int control = -1);
+    /// While it plays: time goes on, and starts over after the end where it loops.
+    /// @return whether it goes on: false at the end, and where nothing changes over time
+    bool advanceTime(double clockSeconds);
+    /// The motion of the world as it is set now; handles are solved when it is asked for a pose.
+    [[nodiscard]] const Motion& mover() const { return *mMover; }
+    /// The world as it is shown; made anew where it has moved since.
+    [[nodiscard]] const std::shared_ptr<const World>& shownWorld();
+    [[nodiscard]] bool areDeformersModified() const {
+        return motion.now.deformers != mSavedDeformers;
+    }
+    void markDeformersSaved() { mSavedDeformers = motion.now.deformers; }
 
     // State that commands change and widgets read.
+    MotionState motion; ///< `now` is set by setMotion() and advanceTime() alone
     Camera camera;
     std::optional<Camera> fileCamera; ///< the view that the scene opens with
     LightRig rig;
@@ -124,9 +153,21 @@ public:
     [[nodiscard]] std::uint64_t materialRevision() const { return mMaterialRevision; }
 
 private:
+    /// A model that is read again keeps its motion, as far as it still can.
+    void adoptMotion(bool isSameModel);
+    /// What was chosen stays so where the list has it still.
+    void keepChoice(const DeformerStack& before);
+    /// Of all documents, in effect.
+    [[nodiscard]] std::size_t editCount() const;
+
     SessionServices mServices;
     Dispatcher mDispatcher;
     std::shared_ptr<const World> mWorld;
+    std::unique_ptr<Motion> mMover; ///< of mWorld
+    std::shared_ptr<const World> mShownWorld;
+    MotionSetting mShownSetting; ///< of mShownWorld
+    MotionHistory mMotionHistory;
+    DeformerStack mSavedDeformers;
     OpenRequest mOpened;
     std::vector<std::shared_ptr<subedit::MaterialMap>> mRendered;
     std::vector<std::unique_ptr<subedit::Document>> mDocuments;
@@ -145,8 +186,10 @@ private:
 // Each file of commands registers its own (camera_commands.cpp and so on).
 void addBrushCommands(Session& session);
 void addCameraCommands(Session& session);
+void addDeformCommands(Session& session);
 void addFileCommands(Session& session);
 void addLightCommands(Session& session);
+void addMotionCommands(Session& session);
 void addPaintCommands(Session& session);
 void addProfileCommands(Session& session);
 void addSpreadCommands(Session& session);

@@ -43,7 +43,12 @@ constexpr Shortcut kShortcuts[] = {
     {Action::TurnDown, GLFW_KEY_KP_2, 0, "", "View", nullptr},
     {Action::Initial, GLFW_KEY_KP_0, 0, "Num 0", "View", "The view that the scene opened with"},
     {Action::Projection, GLFW_KEY_KP_5, 0, "Num 5", "View", "Perspective or orthographic"},
-    {Action::Play, GLFW_KEY_SPACE, 0, "Space", "View", "Turntable: the object turns, the light stays"},
+    {Action::Play, GLFW_KEY_SPACE, 0, "Space", "Motion", "Play or stop; a model at rest turns"},
+    {Action::Turntable, GLFW_KEY_SPACE, kShift, "Shift+Space", "Motion",
+     "Turntable: the object turns, the light stays"},
+    {Action::StepBack, GLFW_KEY_COMMA, 0, ", .", "Motion", "A frame back or on (1/24 s)"},
+    {Action::StepOn, GLFW_KEY_PERIOD, 0, "", "Motion", nullptr},
+    {Action::Key, GLFW_KEY_K, 0, "K", "Motion", "Deform: a key at this moment"},
     {Action::Panels, GLFW_KEY_H, 0, "H", "Window", "Hide or show the panels"},
     {Action::FullScreen, GLFW_KEY_F11, 0, "F11", "Window", "Full screen"},
     {Action::Help, GLFW_KEY_F1, 0, "F1 or ?", "Window", "These shortcuts"},
@@ -56,6 +61,7 @@ constexpr Shortcut kShortcuts[] = {
 
 constexpr MouseHelp kMouse[] = {
     {"Left", "Paint; beside the object: turn the view"},
+    {"Left on a dot", "Drag a light, a control point, a handle"},
     {"Ctrl+Left", "Paint the other way: darken, harden, secondary profile"},
     {"Middle, Alt+Left", "Turn the view"},
     {"Shift+Middle, Alt+Middle", "Shift the view"},

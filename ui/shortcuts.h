@@ -42,7 +42,11 @@ enum class Action {
     SelectInvert,
     Select,
     Paint,
-    Play
+    Play,
+    Turntable,
+    StepBack,
+    StepOn,
+    Key
 };
 
 struct Shortcut {

@@ -47,6 +47,7 @@ bool Viewport::takePicture(Session& session) {
     if (std::optional<std::string> error = mWorker.takeError()) {
         session.notify(Notice::Kind::Error, "The picture cannot be rendered: " + *error);
         mInFlight.reset();
+        ++mFailures;
         return true;
     }
     std::optional<Picture> picture = mWorker.takePicture();
@@ -135,6 +136,7 @@ void Viewport::ask(Session& session, int rung, Purpose purpose) {
     request.lights = session.rig.resolved();
     request.environment = session.rig.around();
     request.specular = session.view.specular;
+    request.motion = session.motion.now;
     request.display = windowDisplay(session.view);
     request.view = session.view.mode;
     request.overlayMaterial = mHasSelection ? session.activeMaterial : -1;
@@ -166,6 +168,7 @@ bool Viewport::update(Session& session) {
     const std::uint64_t revision = session.pictureRevision();
     if (mSeenRevision != revision) {
         mSeenRevision = revision;
+        mFailures = 0;
         mLastChange = Clock::now();
     }
     const bool isCurrent = mShownRevision == revision && mShown.windowSizePx == mRect.size;
@@ -175,6 +178,10 @@ bool Viewport::update(Session& session) {
         return redraw;
     }
     if (!isCurrent) {
+        constexpr int kMostFailures = 3; // what cannot be rendered is not tried for ever
+        if (mFailures >= kMostFailures) {
+            return redraw;
+        }
         // One coarse picture at a time: the one under way is shown before the next is begun, however
         // long it takes. To give it up for a newer one could go on for ever.
         if (!mInFlight || mInFlight->purpose != Purpose::Change) {

@@ -103,6 +103,7 @@ private:
     bool mHasSelection = false; ///< part of a material is selected: it is shown
     std::uint64_t mWorldRevision = 0;
     std::uint64_t mSeenRevision = 0;
+    int mFailures = 0; ///< of pictures of that revision
     std::optional<InFlight> mInFlight;
     Clock::time_point mLastChange;
     int mFinestRung;

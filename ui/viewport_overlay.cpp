@@ -1,6 +1,7 @@
 #include "ui/viewport_overlay.h"
 
 #include "ui/camera_controller.h"
+#include "ui/deform_controls.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -117,11 +118,11 @@ void drawBrush(const Canvas& canvas, SurfacePicker& picker, glm::dvec2 at) {
     }
 }
 
-void drawScribbles(const Canvas& canvas) {
+void drawScribbles(const Canvas& canvas, SurfacePicker& picker) {
     for (const subedit::Scribble& scribble : canvas.session.paint.propagation.scribbles) {
         std::vector<ImVec2> points;
         for (const subedit::StrokePoint& point : scribble.path) {
-            points.push_back(canvas.at(glm::dvec3(point.positionMm)));
+            points.push_back(canvas.at(picker.shown(glm::dvec3(point.positionMm))));
         }
         const ImU32 color = scribble.strength > 0.5f ? kAccent : IM_COL32(236, 150, 120, 235);
         if (points.size() > 1) {
@@ -132,14 +133,14 @@ void drawScribbles(const Canvas& canvas) {
     }
 }
 
-void drawPlaces(const Canvas& canvas) {
+void drawPlaces(const Canvas& canvas, SurfacePicker& picker) {
     const PaintState& paint = canvas.session.paint;
     if (paint.tool != Tool::Paint) {
         return;
     }
     const bool isCopying = paint.op == PaintOperator::Clone || paint.op == PaintOperator::Pattern;
     if (isCopying && paint.cloneSource) { // a cross where it comes from
-        const ImVec2 p = canvas.at(glm::dvec3(paint.cloneSource->positionMm));
+        const ImVec2 p = canvas.at(picker.shown(glm::dvec3(paint.cloneSource->positionMm)));
         const float arm = 8.0f * canvas.scale;
         const std::array<ImVec2, 2> across{ImVec2(p.x - arm, p.y), ImVec2(p.x + arm, p.y)};
         const std::array<ImVec2, 2> along{ImVec2(p.x, p.y - arm), ImVec2(p.x, p.y + arm)};
@@ -147,8 +148,8 @@ void drawPlaces(const Canvas& canvas) {
         canvas.line(along.data(), 2, kAccent, false);
     }
     if (paint.op == PaintOperator::Gradient && paint.gradientFromMm != paint.gradientToMm) {
-        const std::array<ImVec2, 2> ends{canvas.at(glm::dvec3(paint.gradientFromMm)),
-                                         canvas.at(glm::dvec3(paint.gradientToMm))};
+        const std::array<ImVec2, 2> ends{canvas.at(picker.shown(glm::dvec3(paint.gradientFromMm))),
+                                         canvas.at(picker.shown(glm::dvec3(paint.gradientToMm)))};
         canvas.line(ends.data(), 2, kAccent, false);
         canvas.list.AddCircleFilled(ends[0], 4.0f * canvas.scale, kAccent);
         canvas.list.AddCircle(ends[1], 5.0f * canvas.scale, kAccent, 16, 1.5f * canvas.scale);
@@ -180,6 +181,27 @@ void drawLights(const Canvas& canvas) {
     }
 }
 
+void drawControls(const Canvas& canvas) {
+    const std::vector<DeformControl> controls = shownControls(canvas.session);
+    for (const auto& [a, b] : controlLines(canvas.session)) {
+        const glm::dvec3& from = controls[static_cast<std::size_t>(a)].shownMm;
+        const glm::dvec3& to = controls[static_cast<std::size_t>(b)].shownMm;
+        if (canvas.isInFront(from) && canvas.isInFront(to)) {
+            canvas.list.AddLine(canvas.at(from), canvas.at(to), kFaint, 1.0f * canvas.scale);
+        }
+    }
+    for (const DeformControl& control : controls) {
+        if (!canvas.isInFront(control.shownMm)) {
+            continue;
+        }
+        const ImVec2 at = canvas.at(control.shownMm);
+        const bool isChosen = control.index == canvas.session.motion.control;
+        const float radius = (isChosen ? 6.0f : 4.5f) * canvas.scale;
+        canvas.list.AddCircleFilled(at, radius, isChosen ? kAccent : kLine, 16);
+        canvas.list.AddCircle(at, radius, kShadow, 16, 1.2f * canvas.scale);
+    }
+}
+
 } // namespace
 
 void drawViewportOverlay(ImDrawList& list, const Session& session, SurfacePicker& picker,
@@ -194,13 +216,14 @@ void drawViewportOverlay(ImDrawList& list, const Session& session, SurfacePicker
     list.PushClipRect(low, {low.x + static_cast<float>(rect.size.x),
                             low.y + static_cast<float>(rect.size.y)});
     if (session.paint.tool == Tool::Scribble) {
-        drawScribbles(canvas);
+        drawScribbles(canvas, picker);
     }
-    drawPlaces(canvas);
+    drawPlaces(canvas, picker);
     if (brushAt) {
         drawBrush(canvas, picker, *brushAt);
     }
     drawLights(canvas);
+    drawControls(canvas);
     list.PopClipRect();
 }
 

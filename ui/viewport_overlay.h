@@ -5,8 +5,8 @@
 
 struct ImDrawList;
 
-/// What is drawn over the picture: the brush on the surface, lights, scribbles, the line of a
-/// gradient, where copies come from.
+/// What is drawn over the picture: the brush on the surface, lights, control points and handles,
+/// scribbles, the line of a gradient, where copies come from.
 namespace celadon::ui {
 
 /// @param brushAt window pixels; nothing where the cursor is elsewhere

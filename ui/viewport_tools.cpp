@@ -1,6 +1,7 @@
 #include "ui/viewport_tools.h"
 
 #include "subedit/errors.h"
+#include "ui/deform_controls.h"
 #include "ui/viewport_overlay.h"
 
 #define GLFW_INCLUDE_NONE
@@ -31,6 +32,35 @@ int ViewportTools::lightAt(glm::dvec2 positionPx, const ViewportRect& rect) cons
         }
     }
     return -1;
+}
+
+int ViewportTools::controlAt(glm::dvec2 positionPx, const ViewportRect& rect) const {
+    int nearest = -1;
+    double closest = kGizmoReachPx;
+    for (const DeformControl& control : shownControls(mSession)) {
+        const double distance =
+            glm::distance(seenAt(mSession.camera, control.shownMm, rect), positionPx);
+        if (projected(mSession.camera, control.shownMm, rect.aspect()).z > 0.0 &&
+            distance < closest) {
+            closest = distance;
+            nearest = control.index;
+        }
+    }
+    return nearest;
+}
+
+void ViewportTools::dragControlBy(glm::dvec2 deltaPx, const ViewportRect& rect) {
+    for (const DeformControl& control : shownControls(mSession)) {
+        if (control.index == mControl) { // in the plane that faces the camera
+            const double mm = pictureHeightMm(mSession.camera, control.shownMm) / rect.size.y;
+            const CameraFrame frame = cameraFrame(mSession.camera);
+            Command drag = dragControl(mSession, mControl,
+                                       deltaPx.x * mm * frame.right - deltaPx.y * mm * frame.up);
+            drag.arguments["continues"] = mHasMovedControl;
+            mHasMovedControl |= mSession.perform(drag);
+            return;
+        }
+    }
 }
 
 void ViewportTools::handle(const InputEvent& event, const ViewportRect& rect, bool overUi) {
@@ -80,6 +110,13 @@ void ViewportTools::press(const InputEvent& event, const ViewportRect& rect) {
     mButton = event.button;
     mLast = event.positionPx;
     if (event.button == GLFW_MOUSE_BUTTON_LEFT && !alt) {
+        mControl = controlAt(event.positionPx, rect);
+        if (mControl >= 0) {
+            mDrag = Drag::Control;
+            mHasMovedControl = false;
+            mSession.chooseDeformer(mSession.motion.selected, mControl);
+            return;
+        }
         mLight = lightAt(event.positionPx, rect);
         if (mLight >= 0) {
             mDrag = Drag::Light;
@@ -138,6 +175,9 @@ void ViewportTools::move(const InputEvent& event, const ViewportRect& rect) {
               {"position", toJson(at + delta.x * mm * frame.right - delta.y * mm * frame.up)}}});
         break;
     }
+    case Drag::Control:
+        dragControlBy(delta, rect);
+        break;
     case Drag::Paint:
         paintTo(event.positionPx, rect);
         break;
@@ -163,7 +203,7 @@ void ViewportTools::finishDrag() {
 }
 
 void ViewportTools::dragOverSurface(glm::dvec2 positionPx, const ViewportRect& rect) {
-    const std::optional<SurfacePoint> hit = pick(positionPx, rect);
+    const std::optional<SurfacePoint> hit = mPicker.pickAtRest(positionPx, rect);
     if (!hit) {
         return;
     }
@@ -177,12 +217,28 @@ void ViewportTools::dragOverSurface(glm::dvec2 positionPx, const ViewportRect& r
     }
 }
 
+bool ViewportTools::addHandleAt(glm::dvec2 positionPx, const ViewportRect& rect) {
+    const std::optional<SurfacePoint> place = mPicker.pickAtRest(positionPx, rect);
+    if (!place) {
+        return false;
+    }
+    constexpr double kHeld = 0.12; // of the model's radius
+    const double unit = mSession.world().millimetersPerUnit;
+    mSession.perform({"deform.handle.add",
+                      {{"at", toJson(place->positionMm / unit)},
+                       {"radius", kHeld * mSession.world().scatteringSphere.radius / unit}}});
+    return true;
+}
+
 void ViewportTools::pressTool(const InputEvent& event, const ViewportRect& rect) {
+    if (mSession.motion.isAddingHandles && addHandleAt(event.positionPx, rect)) {
+        return;
+    }
     if (!mSession.services().isPaintable) {
         mDrag = Drag::Orbit;
         return;
     }
-    const std::optional<SurfacePoint> hit = pick(event.positionPx, rect);
+    const std::optional<SurfacePoint> hit = mPicker.pickAtRest(event.positionPx, rect);
     if (!hit) {
         mDrag = Drag::Orbit; // beside the object the hand turns it
         return;
@@ -250,7 +306,7 @@ void ViewportTools::pressSurface(const SurfacePoint& hit, const InputEvent& even
 }
 
 bool ViewportTools::paintPoint(glm::dvec2 positionPx, const ViewportRect& rect) {
-    const std::optional<SurfacePoint> hit = pick(positionPx, rect);
+    const std::optional<SurfacePoint> hit = mPicker.pickAtRest(positionPx, rect);
     if (!hit || hit->material < 0 ||
         (mSession.isStrokeOpen() && hit->material != mSession.activeMaterial)) {
         mLastPoint.reset();
@@ -305,6 +361,13 @@ void ViewportTools::cancel() {
         mSession.cancelStroke();
         mDrag = Drag::None;
     }
+    if (mDrag == Drag::Control) {
+        if (mHasMovedControl) {
+            mSession.perform({"edit.undo"});
+        }
+        mDrag = Drag::None;
+    }
+    mSession.motion.isAddingHandles = false;
 }
 
 void ViewportTools::beginAdjust(Adjust what) {
@@ -340,7 +403,9 @@ std::optional<glm::dvec2> ViewportTools::brushPlace(const ViewportRect& rect) co
     }
     const glm::dvec2 at = mAdjust ? mAdjust->start : mCursor;
     const bool isPainting = mDrag == Drag::Paint || mDrag == Drag::Scribble;
-    const bool isFree = mDrag == Drag::None && !mIsOverUi;
+    // While it plays, the surface under a resting cursor is not looked for: that takes a moment.
+    const bool isFree = mDrag == Drag::None && !mIsOverUi && !mSession.motion.isPlaying &&
+                        !mSession.motion.isAddingHandles;
     return rect.contains(at) && (isPainting || isFree) ? std::optional(at) : std::nullopt;
 }
 
@@ -363,10 +428,15 @@ std::string ViewportTools::hint() const {
         return "Zooming";
     case Drag::Light:
         return "Moving a light: it goes on aiming at the object";
+    case Drag::Control:
+        return "Moving a part of the shape, as far from the eye as it is   \xc2\xb7   Esc to give up";
     case Drag::Line:
         return "Drawing the line of the gradient";
     default:
         break;
+    }
+    if (mSession.motion.isAddingHandles) {
+        return fmt::format("Click: a handle there{}Drag handles{}Esc: enough", dot, dot);
     }
     if (!mSession.services().isPaintable) {
         return "Left: turn   \xc2\xb7   Shift+middle: shift   \xc2\xb7   Wheel: zoom";

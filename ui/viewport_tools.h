@@ -12,7 +12,7 @@
 struct ImDrawList;
 
 /// What the mouse does in the viewport: painting, turning, shifting and zooming the view, dragging
-/// lights, changing the brush. Each movement becomes a command.
+/// lights, control points and handles, changing the brush. Each movement becomes a command.
 namespace celadon::ui {
 
 class ViewportTools {
@@ -23,7 +23,8 @@ public:
     void handle(const InputEvent& event, const ViewportRect& rect, bool overUi);
     [[nodiscard]] bool isDragging() const { return mDrag != Drag::None; }
 
-    /// Escape: a stroke or a change of the brush as if it had never begun.
+    /// Escape: a stroke, a dragged part of the shape or a change of the brush as if it had never
+    /// begun; clicks add no handles any more.
     void cancel();
     enum class Adjust { Radius, Strength };
     /// From now on the mouse, moved sideways, changes the brush, until a button or cancel().
@@ -51,12 +52,16 @@ public:
     [[nodiscard]] std::string hint() const;
 
 private:
-    enum class Drag { None, Orbit, Pan, Zoom, Light, Paint, Scribble, Line };
+    enum class Drag { None, Orbit, Pan, Zoom, Light, Control, Paint, Scribble, Line };
 
     void press(const InputEvent& event, const ViewportRect& rect);
     void move(const InputEvent& event, const ViewportRect& rect);
     void wheel(const InputEvent& event, const ViewportRect& rect);
     [[nodiscard]] int lightAt(glm::dvec2 positionPx, const ViewportRect& rect) const;
+    [[nodiscard]] int controlAt(glm::dvec2 positionPx, const ViewportRect& rect) const;
+    void dragControlBy(glm::dvec2 deltaPx, const ViewportRect& rect);
+    /// @return whether the surface is there
+    bool addHandleAt(glm::dvec2 positionPx, const ViewportRect& rect);
     void pressTool(const InputEvent& event, const ViewportRect& rect);
     void paintTo(glm::dvec2 positionPx, const ViewportRect& rect);
     bool paintPoint(glm::dvec2 positionPx, const ViewportRect& rect);
@@ -70,6 +75,8 @@ private:
     Drag mDrag = Drag::None;
     int mButton = -1;
     int mLight = -1;
+    int mControl = -1;             ///< of the chosen deformer, that is dragged
+    bool mHasMovedControl = false; ///< by this drag
     glm::dvec2 mLast{0.0};
     glm::dvec3 mPivot{0.0};
     glm::dvec2 mCursor{-1.0};

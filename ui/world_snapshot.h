@@ -14,10 +14,15 @@ struct WorldSnapshot {
     Camera camera;
     LightRig rig;
     ViewState view;
+    MotionSetting motion;
 
-    /// Copies the geometry: not on the window's thread.
+    /// Copies the geometry as it is shown: not on the window's thread.
+    /// @throws InputError for a shape that cannot be
     [[nodiscard]] World world() const {
-        World result = *base;
+        Motion mover(*base);
+        mover.setDeformers(motion.deformers);
+        mover.selectAnimation(motion.animation);
+        World result = mover.moves() ? posedWorld(*base, mover.at(motion.seconds)) : *base;
         result.materials = materials;
         return result;
     }
@@ -25,7 +30,8 @@ struct WorldSnapshot {
 
 /// Copies the maps that are being edited: some 50 ms for 512 x 512 texels.
 [[nodiscard]] inline WorldSnapshot takeSnapshot(const Session& session) {
-    WorldSnapshot snapshot{session.sharedWorld(), {}, session.camera, session.rig, session.view};
+    WorldSnapshot snapshot{session.sharedWorld(), {}, session.camera, session.rig, session.view,
+                           session.motion.now};
     for (int i = 0; i < session.materialCount(); ++i) {
         const subedit::Document* const document = session.document(i);
         snapshot.materials.push_back(

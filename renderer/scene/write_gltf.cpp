@@ -159,7 +159,7 @@ std::string escaped(const std::string& name) {
 } // namespace
 
 void writeGltf(const World& world, const std::vector<json>& scattering,
-               const std::filesystem::path& file) {
+               const json& extras, const std::filesystem::path& file) {
     CELADON_ASSERT(scattering.size() == world.materials.size());
     std::vector<json> materials = scattering;
     const std::size_t firstOpaque = materials.size();
@@ -174,7 +174,10 @@ void writeGltf(const World& world, const std::vector<json>& scattering,
     }
     std::filesystem::path buffer = file;
     buffer.replace_extension(".bin");
-    const json document = writer.document(materials, escaped(buffer.filename().string()));
+    json document = writer.document(materials, escaped(buffer.filename().string()));
+    if (!extras.empty()) {
+        document["scenes"][0]["extras"] = extras;
+    }
     subedit::writeTextFile(buffer, writer.bytes());
     subedit::writeTextFile(file,
                            document.dump(1, ' ', false, json::error_handler_t::replace) + "\n");

@@ -14,8 +14,9 @@ namespace celadon {
 /// on an automatic atlas fits. Opaque parts keep base color, metalness, roughness and emission;
 /// their textures, skins and animations are left out.
 /// @param scattering of each of World::materials: a glTF material, with `extras.subedit`
+/// @param extras    of the scene: deformers, in meters
 /// @throws OutputError; files that were there before are then untouched, or whole and new
 void writeGltf(const World& world, const std::vector<nlohmann::json>& scattering,
-               const std::filesystem::path& file);
+               const nlohmann::json& extras, const std::filesystem::path& file);
 
 } // namespace celadon

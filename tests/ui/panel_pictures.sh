@@ -26,7 +26,13 @@ view() { printf '{"command":"view.mode","name":"%s"%s}' "$1" "${2:-}"; }
     printf 'material\t%s\n' "$(tab material)"
     printf 'material_lower\t{"command":"window.scroll","to":1}\n'
     printf 'light\t%s\t{"command":"window.scroll","to":0}\n' "$(tab light)"
-    printf 'view\t%s\n' "$(tab view)"
+    printf 'deform\t%s\n' "$(tab deform)"
+    printf 'deform_amount\t{"command":"deform.add","type":"wave"}\t{"command":"deform.add","type":"twist"}\t{"command":"deform.key","deformer":1,"seconds":0}\t{"command":"deform.key","deformer":1,"seconds":2}\n'
+    printf 'deform_lower\t{"command":"window.scroll","to":1}\n'
+    printf 'deform_lattice\t{"command":"window.scroll","to":0}\t{"command":"deform.add","type":"lattice"}\t{"command":"deform.point","deformer":2,"point":[1,2,1],"by":[0,20,0]}\n'
+    printf 'deform_handles\t{"command":"deform.handle.add","at":[0,50,0],"radius":15}\t{"command":"deform.handle.add","at":[0,-50,0],"radius":15}\t{"command":"deform.handle.change","handle":0,"move":[25,-10,0],"turnDegrees":[0,0,-30]}\n'
+    printf 'deform_handles_lower\t{"command":"window.scroll","to":1}\n'
+    printf 'view\t{"command":"deform.stack","deformers":[]}\t{"command":"window.scroll","to":0}\t%s\n' "$(tab view)"
     printf 'view_lower\t{"command":"window.scroll","to":1}\n'
     printf 'selection\t{"command":"window.scroll","to":0}\t{"command":"select.similar","position":[13.464,31.261,24.724],"normal":[0.832,-0.113,0.544],"tolerance":0.05}\n'
     printf 'exitance\t{"command":"select.change","what":"all"}\t%s\n' "$(view exitance)"

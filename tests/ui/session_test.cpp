@@ -281,6 +281,8 @@ TEST_F(SessionTest, GradientNeedsItsLineAndRunsAlongIt) {
 
 TEST_F(SessionTest, ExportCanBeOpenedAgainWithTheSameMaterial) {
     paintStroke();
+    session.execute({"deform.add", {{"type", "lattice"}}});
+    session.execute({"deform.point", {{"deformer", 0}, {"point", {1, 2, 1}}, {"by", {0, 10, 0}}}});
     const test::TemporaryFolder folder;
     const auto file = folder / "ball.gltf";
     session.execute({"file.export", {{"file", file.string()}}});
@@ -290,6 +292,9 @@ TEST_F(SessionTest, ExportCanBeOpenedAgainWithTheSameMaterial) {
     session.execute({"file.save", {{"file", saved.string()}}});
     EXPECT_EQ(test::readText(*scene.materials.front().subedit), test::readText(saved));
     EXPECT_EQ(scene.meshes.front().indices, session.world().meshes.front().mesh.indices);
+    ASSERT_TRUE(scene.rig && scene.rig->deformers); // 0.4 mm per unit there, meters here
+    const glm::dvec3 by = scene.rig->deformers->front().moves.front().by.vector(0.0);
+    EXPECT_NEAR(by.y, 0.4 * 10.0 / 1000.0, 1e-9);
     EXPECT_FALSE(session.perform({"file.export", {{"file", "/nowhere/ball.gltf"}}}));
 }
 

@@ -307,12 +307,12 @@ void drawHistory(Session& session) {
         ImGui::EndDisabled();
         tooltip(help.c_str());
     };
-    button("Undo", document->canUndo(), "edit.undo",
-           document->canUndo() ? fmt::format("{} (Ctrl+Z)", document->undoTitle()) : "Ctrl+Z");
+    const std::optional<std::string> undo = session.undoTitle();
+    const std::optional<std::string> redo = session.redoTitle();
+    button("Undo", undo.has_value(), "edit.undo", undo ? *undo + " (Ctrl+Z)" : "Ctrl+Z");
     ImGui::SameLine(0.0f, gap);
-    button("Redo", document->canRedo(), "edit.redo",
-           document->canRedo() ? fmt::format("{} (Ctrl+Shift+Z)", document->redoTitle())
-                               : "Ctrl+Shift+Z");
+    button("Redo", redo.has_value(), "edit.redo",
+           redo ? *redo + " (Ctrl+Shift+Z)" : "Ctrl+Shift+Z");
 }
 
 } // namespace

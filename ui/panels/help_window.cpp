@@ -60,6 +60,7 @@ void drawHelpWindow(bool& isShown, float scale) {
             row(help.keys, help.help);
         }
         list("View");
+        list("Motion");
         list("Window");
         ImGui::EndGroup();
     }

@@ -66,6 +66,9 @@ void drawFileMenu(const LayoutContext& context) {
     item("Save material as\xe2\x80\xa6", "Ctrl+Shift+S", actions.saveAs, hasMaterial);
     ImGui::Separator();
     const bool hasWorld = context.session.hasWorld();
+    item("Open deformers\xe2\x80\xa6", "", actions.openDeformers, hasWorld);
+    item("Save deformers\xe2\x80\xa6", "", actions.saveDeformers, hasWorld);
+    ImGui::Separator();
     item("Export glTF and SubEdit\xe2\x80\xa6", "", actions.exportGltf, hasMaterial);
     item("Save picture\xe2\x80\xa6", "", actions.savePicture, hasWorld);
     if (ImGui::MenuItem("Save turntable\xe2\x80\xa6", nullptr, false, hasWorld)) {
@@ -78,18 +81,16 @@ void drawFileMenu(const LayoutContext& context) {
 void drawEditMenu(const LayoutContext& context) {
     Session& session = context.session;
     const subedit::Document* const document = session.activeDocument();
-    const bool canUndo = document != nullptr && document->canUndo();
-    const bool canRedo = document != nullptr && document->canRedo();
+    const std::optional<std::string> undo = session.undoTitle();
+    const std::optional<std::string> redo = session.redoTitle();
     const auto command = [&session](const char* label, const char* shortcut, Command action,
                                     bool enabled) {
         if (ImGui::MenuItem(label, shortcut, false, enabled)) {
             session.perform(action);
         }
     };
-    command(canUndo ? ("Undo " + document->undoTitle()).c_str() : "Undo", "Ctrl+Z", {"edit.undo"},
-            canUndo);
-    command(canRedo ? ("Redo " + document->redoTitle()).c_str() : "Redo", "Ctrl+Shift+Z",
-            {"edit.redo"}, canRedo);
+    command(("Undo " + undo.value_or("")).c_str(), "Ctrl+Z", {"edit.undo"}, undo.has_value());
+    command(("Redo " + redo.value_or("")).c_str(), "Ctrl+Shift+Z", {"edit.redo"}, redo.has_value());
     ImGui::Separator();
     const bool has = document != nullptr;
     command("Fill the selection", nullptr, {"edit.fill"}, has);
@@ -122,7 +123,11 @@ void drawViewMenu(const LayoutContext& context) {
     if (ImGui::MenuItem("Frame the model", "Home")) {
         session.perform({"camera.frame", {{"aspect", session.aspect}}});
     }
-    if (ImGui::MenuItem("Turntable", "Space", context.state.isTurning)) {
+    if (ImGui::MenuItem("Play", "Space", session.motion.isPlaying,
+                        session.hasWorld() && session.mover().durationSeconds() > 0.0)) {
+        context.actions.togglePlay();
+    }
+    if (ImGui::MenuItem("Turntable", "Shift+Space", context.state.isTurning)) {
         context.actions.toggleTurntable();
     }
     ImGui::Separator();

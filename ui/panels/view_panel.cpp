@@ -77,7 +77,7 @@ void drawTurntable(const LayoutContext& context) {
     if (ImGui::Button(context.state.isTurning ? "Stop" : "Play", {width, 0.0f})) {
         context.actions.toggleTurntable();
     }
-    tooltip("Turns the object, light and eye at rest: once around in ten seconds (Space)");
+    tooltip("Turns the object, light and eye at rest: once around in ten seconds (Shift+Space)");
     ImGui::SameLine(0.0f, gap);
     if (ImGui::Button("Save sequence\xe2\x80\xa6", {width, 0.0f})) {
         context.actions.saveTurntable(context.state.turntableFrames);

@@ -22,7 +22,7 @@ TEST(WriteGltf, WhatIsWrittenReadsBack) {
     const World world = vaseWorld();
     const test::TemporaryFolder folder;
     const auto file = folder / "a vase.gltf"; // a name that a URI must escape
-    writeGltf(world, {{{"name", "wax"}, {"extras", {{"subedit", "wax.subedit.exr"}}}}}, file);
+    writeGltf(world, {{{"name", "wax"}, {"extras", {{"subedit", "wax.subedit.exr"}}}}}, {}, file);
     const Scene scene = loadScene(file.string());
     ASSERT_EQ(scene.meshes.size(), world.meshes.size());
     EXPECT_EQ(scene.millimetersPerUnit, 1000.0);
@@ -43,7 +43,7 @@ TEST(WriteGltf, WhatIsWrittenReadsBack) {
 
 TEST(WriteGltf, NamesAFolderThatIsMissing) {
     const test::TemporaryFolder folder;
-    EXPECT_THROW(writeGltf(vaseWorld(), {nlohmann::json::object()}, folder / "no/such.gltf"),
+    EXPECT_THROW(writeGltf(vaseWorld(), {nlohmann::json::object()}, {}, folder / "no/such.gltf"),
                  OutputError);
 }
 

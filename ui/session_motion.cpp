@@ -1,0 +1,156 @@
+// What moves the model, how it is undone, and the shape that it has at the moment that is shown.
+#include "renderer/scene/motion.h"
+#include "subedit/errors.h"
+#include "ui/session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace celadon::ui {
+
+void Session::adoptMotion(bool isSameModel) {
+    mMover = std::make_unique<Motion>(*mWorld);
+    mMotionHistory.clear();
+    const MotionState before = std::exchange(motion, {});
+    motion.now.deformers = mMover->deformers();
+    motion.speed = before.speed;
+    motion.loops = before.loops;
+    if (!isSameModel) {
+        mSavedDeformers = motion.now.deformers;
+        for (const std::string& warning : mMover->warnings()) {
+            notify(Notice::Kind::Warning, warning);
+        }
+        if (!mMover->animations().empty()) {
+            motion.now.animation = 0;
+            mMover->selectAnimation(0);
+        }
+        return;
+    }
+    MotionSetting kept = before.now;
+    if (kept.animation && *kept.animation >= mMover->animations().size()) {
+        kept.animation.reset();
+    }
+    try {
+        setMotion(std::move(kept));
+        motion.isPlaying = before.isPlaying;
+        motion.selected = before.selected;
+        motion.control = before.control;
+    } catch (const Error& error) { // the shape has changed so that they do not fit any more
+        notify(Notice::Kind::Warning, error.what());
+    }
+}
+
+void Session::setMotion(MotionSetting next) {
+    const bool isChanged = next.deformers != motion.now.deformers;
+    mMover->setDeformers(next.deformers);
+    mMover->selectAnimation(next.animation);
+    motion.now = std::move(next);
+    touchPicture();
+    if (isChanged) {
+        for (const std::string& warning : mMover->warnings()) {
+            notify(Notice::Kind::Warning, warning);
+        }
+    }
+}
+
+void Session::changeMotion(MotionSetting next, const std::string& title, bool continues) {
+    const MotionSetting before = motion.now;
+    setMotion(std::move(next));
+    mMotionHistory.add(before, title, editCount(), continues);
+}
+
+bool Session::advanceTime(double clockSeconds) {
+    const double duration = hasWorld() ? mMover->durationSeconds() : 0.0;
+    if (duration <= 0.0) {
+        return false;
+    }
+    const double next = motion.now.seconds + motion.speed * clockSeconds;
+    motion.now.seconds =
+        next <= duration ? next : (motion.loops ? std::fmod(next, duration) : duration);
+    touchPicture();
+    return motion.loops || next < duration;
+}
+
+const std::shared_ptr<const World>& Session::shownWorld() {
+    if (!mMover->moves()) {
+        return mWorld;
+    }
+    if (!mShownWorld || mShownSetting != motion.now) {
+        try {
+            mShownWorld =
+                std::make_shared<const World>(posedWorld(*mWorld, mMover->at(motion.now.seconds)));
+            mShownSetting = motion.now;
+        } catch (const Error&) { // the picture says it
+            return mWorld;
+        }
+    }
+    return mShownWorld;
+}
+
+std::size_t Session::editCount() const {
+    std::size_t count = 0;
+    for (int i = 0; i < materialCount(); ++i) {
+        count += document(i) != nullptr ? document(i)->commandCount() : 0;
+    }
+    return count;
+}
+
+std::optional<std::string> Session::undoTitle() const {
+    if (const std::string* const title = mMotionHistory.undoTitle(editCount())) {
+        return *title;
+    }
+    const subedit::Document* const painted = activeDocument();
+    return painted != nullptr && painted->canUndo() ? std::optional(painted->undoTitle())
+                                                    : std::nullopt;
+}
+
+std::optional<std::string> Session::redoTitle() const {
+    if (const std::string* const title = mMotionHistory.redoTitle(editCount())) {
+        return *title;
+    }
+    const subedit::Document* const painted = activeDocument();
+    return painted != nullptr && painted->canRedo() ? std::optional(painted->redoTitle())
+                                                    : std::nullopt;
+}
+
+bool Session::undoMotion() {
+    if (mMotionHistory.undoTitle(editCount()) == nullptr) {
+        return false;
+    }
+    const MotionSetting before = motion.now;
+    setMotion(mMotionHistory.undone(before));
+    mMotionHistory.confirmUndo(before);
+    keepChoice(before.deformers);
+    return true;
+}
+
+bool Session::redoMotion() {
+    if (mMotionHistory.redoTitle(editCount()) == nullptr) {
+        return false;
+    }
+    const MotionSetting before = motion.now;
+    setMotion(mMotionHistory.redone(before));
+    mMotionHistory.confirmRedo(before);
+    keepChoice(before.deformers);
+    return true;
+}
+
+void Session::keepChoice(const DeformerStack& before) {
+    const auto index = static_cast<std::size_t>(motion.selected);
+    const DeformerStack& now = motion.now.deformers;
+    if (motion.selected < 0 || index >= std::min(before.size(), now.size()) ||
+        before[index].kind != now[index].kind) {
+        chooseDeformer(-1);
+    } else if (now[index].kind == Deformer::Kind::Handles &&
+               motion.control >= static_cast<int>(now[index].handles.size())) {
+        motion.control = -1;
+    }
+}
+
+void Session::chooseDeformer(int index, int control) {
+    motion.selected = index;
+    motion.control = control;
+}
+
+} // namespace celadon::ui
