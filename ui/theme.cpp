@@ -76,6 +76,7 @@ void applyTheme(float scale) {
     style.WindowPadding = {12.0f, 12.0f};
     style.FramePadding = {8.0f, 4.0f};
     style.ItemSpacing = {8.0f, 7.0f};
+    style.SelectableTextAlign = {0.0f, 0.5f};
     style.ItemInnerSpacing = {6.0f, 4.0f};
     style.IndentSpacing = 14.0f;
     style.ScrollbarSize = 10.0f;

@@ -83,6 +83,8 @@ drag() {
     x=${at%%,*}
     y=${at#*,}
     y=${y%]}
+    x=${x%.*}
+    y=${y%.*}
     xdotool mousemove "$x" "$y" mousedown 1
     before=$(field pictures)
     begin=$(now)
