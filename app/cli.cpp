@@ -167,7 +167,8 @@ int runCommandLine(int argc, const char* const* argv) {
     const Command root{&app,
                        {},
                        {addEditCommand(app), addRenderCommand(app), addProfileCommand(app),
-                        addMaterialCommand(app), addCompareCommand(app), addBenchCommand(app), addInfoCommand(app)}};
+                        addMaterialCommand(app), addCompareCommand(app), addBenchCommand(app),
+                        addInfoCommand(app)}};
     addCommonOptions(root, verbose);
     app.set_version_flag("--version", "celadon " CELADON_VERSION, "Shows the version")
         ->group("General");

@@ -114,11 +114,12 @@ void addReplay(CLI::App& app, EditOptions& o) {
     addOption(app, "--repeat-for",
               {group, "S", "Begins the replay again until so many seconds have passed"},
               takeNumber(e.repeatSeconds, {0.0, 1e6, false}));
-    addOption(app, "--trace",
-              {group, "FILE",
-               "Times and memory of the replay as a figure (.svg, .png), with the numbers in a .csv "
-               "beside it"},
-              [&o](const Argument& a) { o.trace = parsePath(a); });
+    addOption(
+        app, "--trace",
+        {group, "FILE",
+         "Times and memory of the replay as a figure (.svg, .png), with the numbers in a .csv "
+         "beside it"},
+        [&o](const Argument& a) { o.trace = parsePath(a); });
     addFlag(app, "--exit-after-replay", group, "Closes the window at the end of the replay",
             e.exitAfterReplay);
     addOption(app, "--state",

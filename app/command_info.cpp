@@ -92,7 +92,8 @@ Command addInfoCommand(CLI::App& root) {
               takeNumber(options->motion.timeSeconds, kNotNegative));
     addRepeatable(
         *command, "--deform",
-        {pose, "DEFORM", "As for render, after the animation; repeatable, in order; default: what it stores"},
+        {pose, "DEFORM",
+         "As for render, after the animation; repeatable, in order; default: what it stores"},
         [options](const Argument& a) { options->motion.deformations.push_back(parseText(a)); });
     addOption(*command, "--scale", {pose, "MM", "Millimeters per model unit, as for render"},
               takeNumber(options->scale.millimetersPerUnit, kPositive));

@@ -11,7 +11,8 @@ namespace celadon::app {
 
 class EditTrace {
 public:
-    /// @param file .svg or .png; the numbers go into a .csv beside it @throws UsageError for another name, OutputError
+    /// @param file .svg or .png; the numbers go into a .csv beside it @throws UsageError for
+    /// another name, OutputError
     explicit EditTrace(std::filesystem::path file);
 
     void add(const ui::TracePoint& point) { mPoints.push_back(point); }

@@ -127,9 +127,10 @@ void writePosedMesh(const InfoOptions& options) {
     }
     const Pose pose = motion.at(options.motion.timeSeconds.value_or(0.0));
     if (const auto effort = motion.handleEffort()) {
-        fmt::print("handles: {} vertices on {} nodes, {} iterations of {:.2f} ms, {:.1f} ms in all\n",
-                   effort->vertices, effort->nodes, effort->iterations, effort->msPerIteration,
-                   effort->ms);
+        fmt::print(
+            "handles: {} vertices on {} nodes, {} iterations of {:.2f} ms, {:.1f} ms in all\n",
+            effort->vertices, effort->nodes, effort->iterations, effort->msPerIteration,
+            effort->ms);
     }
     World world = posedWorld(rest, pose);
     std::vector<const Mesh*> meshes;
@@ -152,17 +153,16 @@ void writeDeformedGltf(const InfoOptions& options) {
         (output.extension() != ".glb" && output.extension() != ".gltf")) {
         throw UsageError("--write-gltf", "takes a .glb to a .glb, or a .gltf to a .gltf");
     }
-    if (output.extension() == ".gltf" &&
-        std::filesystem::absolute(file).parent_path() !=
-            std::filesystem::absolute(output).parent_path()) {
+    if (output.extension() == ".gltf" && std::filesystem::absolute(file).parent_path() !=
+                                             std::filesystem::absolute(output).parent_path()) {
         throw UsageError("--write-gltf", "a .gltf names the files beside it",
                          "write it into the folder of the model");
     }
     const World rest = readRest(options);
     static_cast<void>(makeMotion(rest, options.motion));
-    writeFileAtomically(output, loaders::gltfWithDeformers(
-                                    file, loaders::readFile(file),
-                                    *readDeformations(options.motion.deformations)));
+    writeFileAtomically(output,
+                        loaders::gltfWithDeformers(file, loaders::readFile(file),
+                                                   *readDeformations(options.motion.deformations)));
 }
 
 } // namespace

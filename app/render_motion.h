@@ -11,8 +11,8 @@ namespace celadon::app {
 
 /// --animation, --time and --deform, of whichever command.
 struct MotionRequest {
-    std::optional<std::string> animation; ///< name or number
-    std::optional<double> timeSeconds;    ///< with no animation named, the first one is meant
+    std::optional<std::string> animation;  ///< name or number
+    std::optional<double> timeSeconds;     ///< with no animation named, the first one is meant
     std::vector<std::string> deformations; ///< instead of those that the model stores
 };
 

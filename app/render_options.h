@@ -38,7 +38,7 @@ struct RenderOptions {
     // Input and output
     std::string model; ///< a file or builtin:NAME; empty where `sequence` is set
     std::filesystem::path output;
-    std::optional<std::string> material; ///< a file, a shipped name, or a pattern of frames
+    std::optional<std::string> material;   ///< a file, a shipped name, or a pattern of frames
     std::optional<std::string> materialTo; ///< what `material` fades into
     std::optional<FrameRange> fadeFrames;  ///< while; default: all frames
     std::optional<std::filesystem::path> stats;

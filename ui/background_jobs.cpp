@@ -83,7 +83,8 @@ std::optional<BackgroundJobs::Running> BackgroundJobs::running() const {
     if (!mCurrent || mCurrent->title.empty()) {
         return std::nullopt;
     }
-    const auto shown = std::ranges::count_if(mWaiting, [](const Job& j) { return !j.title.empty(); });
+    const auto shown =
+        std::ranges::count_if(mWaiting, [](const Job& j) { return !j.title.empty(); });
     return Running{mCurrent->title, mCurrent->progress->fraction(),
                    static_cast<std::size_t>(shown)};
 }

@@ -96,8 +96,9 @@ void addBrushCommands(Session& session) {
                          session.paint.mirror[i] = a.flag(names[i], session.paint.mirror[i]);
                      }
                  });
-    commands.add("tool.choose", "paint, select, similar, pick, scribble or stamp",
-                 [&session](const Arguments& a) { session.paint.tool = parseTool(a.text("name")); });
+    commands.add(
+        "tool.choose", "paint, select, similar, pick, scribble or stamp",
+        [&session](const Arguments& a) { session.paint.tool = parseTool(a.text("name")); });
     commands.add("gradient.line", "Where a gradient begins and ends: from and to in mm",
                  [&session](const Arguments& a) {
                      session.paint.gradientFromMm = glm::vec3(a.vector3("from"));

@@ -18,15 +18,16 @@ void addCameraCommands(Session& session) {
                  [&session, change](const Arguments& a) {
                      change(orbited(session.camera, a.number("azimuth"), a.number("elevation")));
                  });
-    commands.add("camera.turntable",
-                 "Turns camera and lights together about the target, so that the object turns: degrees",
-                 [&session, change](const Arguments& a) {
-                     Camera camera = session.camera;
-                     LightRig rig = session.rig;
-                     turnAround(camera, rig, a.number("degrees"));
-                     session.rig = std::move(rig);
-                     change(camera);
-                 });
+    commands.add(
+        "camera.turntable",
+        "Turns camera and lights together about the target, so that the object turns: degrees",
+        [&session, change](const Arguments& a) {
+            Camera camera = session.camera;
+            LightRig rig = session.rig;
+            turnAround(camera, rig, a.number("degrees"));
+            session.rig = std::move(rig);
+            change(camera);
+        });
     commands.add("camera.pan", "Shifts the view: right and up in mm",
                  [&session, change](const Arguments& a) {
                      change(panned(session.camera, a.number("right"), a.number("up")));

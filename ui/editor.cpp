@@ -51,7 +51,8 @@ private:
     void worldOpened();
     void recover(const Recovery& recovery);
     void offerRecovery();
-    /// Turntable and motion go on with the clock, as fast as pictures come. @return whether they did
+    /// Turntable and motion go on with the clock, as fast as pictures come. @return whether they
+    /// did
     bool play();
     void drawFrame();
     void drawContents();
@@ -285,8 +286,8 @@ Script::Progress Editor::progress() const {
                              : mViewport.isSettled(mSession) && mFramesToDraw == 0;
     const bool isTruthAwaited =
         mSession.view.mode.mode == ViewMode::Difference && !mTruth.isComplete(mSession);
-    return {!mOpen.isRunning() && isStill && mJobs.isIdle() && !isTruthAwaited,
-            !mJobs.isIdle(), mViewport.shownRevision()};
+    return {!mOpen.isRunning() && isStill && mJobs.isIdle() && !isTruthAwaited, !mJobs.isIdle(),
+            mViewport.shownRevision()};
 }
 
 bool Editor::mustDraw() const {
@@ -424,9 +425,9 @@ void Editor::togglePlay() {
     const double duration = mSession.hasWorld() ? mSession.mover().durationSeconds() : 0.0;
     if (motion.isPlaying || duration > 0.0) {
         const bool isOver = !motion.isPlaying && !motion.loops && motion.now.seconds >= duration;
-        mSession.perform({"motion.play",
-                          {{"on", !motion.isPlaying},
-                           {"seconds", isOver ? 0.0 : motion.now.seconds}}});
+        mSession.perform(
+            {"motion.play",
+             {{"on", !motion.isPlaying}, {"seconds", isOver ? 0.0 : motion.now.seconds}}});
     } else {
         mActions.toggleTurntable();
     }

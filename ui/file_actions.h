@@ -19,8 +19,8 @@ namespace celadon::ui {
 class FileActions {
 public:
     /// @param isUnattended nobody is there to answer questions: nothing is asked or remembered
-    FileActions(Session& session, BackgroundOpen& open, Preferences& preferences,
-                Journal& journal, bool isUnattended);
+    FileActions(Session& session, BackgroundOpen& open, Preferences& preferences, Journal& journal,
+                bool isUnattended);
 
     void open(const OpenRequest& request);
     void putOn(const std::string& material) { open({mSession.opened().model, material}); }

@@ -57,8 +57,8 @@ void pickProfile(const KeyTargets& t) {
 void step(Session& session, double frames) {
     if (session.hasWorld()) {
         const double frame = std::round(session.motion.now.seconds * kStepsPerSecond) + frames;
-        session.perform({"motion.play",
-                         {{"on", false}, {"seconds", std::max(frame, 0.0) / kStepsPerSecond}}});
+        session.perform(
+            {"motion.play", {{"on", false}, {"seconds", std::max(frame, 0.0) / kStepsPerSecond}}});
     }
 }
 

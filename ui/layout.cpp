@@ -156,8 +156,7 @@ void drawLayout(const LayoutContext& context) {
     context.viewport.wantCounts(context.state.panelsShown && context.state.tab == Tab::View);
     drawNotices(context);
     drawHelpWindow(context.state.helpShown, context.scale);
-    if (drawPreferencesWindow(context.preferences, context.state.preferencesShown,
-                              context.scale)) {
+    if (drawPreferencesWindow(context.preferences, context.state.preferencesShown, context.scale)) {
         context.actions.preferencesChanged();
     }
 }

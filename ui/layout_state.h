@@ -44,10 +44,10 @@ struct LayoutState {
     std::string openMenu;           ///< to be opened, once
     std::string activity;           ///< what is being waited for, in the status bar
     std::optional<BackgroundJobs::Running> job;
-    bool isTurning = false;   ///< the turntable plays
-    int turntableFrames = 72; ///< of an exported turn
-    std::string newName;      ///< of a material to be saved as new
-    MaterialLibrary library;  ///< what the browser shows
+    bool isTurning = false;      ///< the turntable plays
+    int turntableFrames = 72;    ///< of an exported turn
+    std::string newName;         ///< of a material to be saved as new
+    MaterialLibrary library;     ///< what the browser shows
     double libraryReadAt = -1e9; ///< ImGui's time, s
 };
 

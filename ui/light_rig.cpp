@@ -155,7 +155,8 @@ void turnAround(Camera& camera, LightRig& rig, double degrees) {
         item.light.direction = turned(item.light.direction, radians);
     }
     if (rig.environment) {
-        rig.environment->turnDegrees = std::remainder(rig.environment->turnDegrees + degrees, 360.0);
+        rig.environment->turnDegrees =
+            std::remainder(rig.environment->turnDegrees + degrees, 360.0);
     }
 }
 

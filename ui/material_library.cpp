@@ -22,8 +22,7 @@ std::string materialLabel(const std::string& nameOrPath) {
     }
     std::ranges::replace(label, '_', ' ');
     if (!label.empty()) {
-        label.front() =
-            static_cast<char>(std::toupper(static_cast<unsigned char>(label.front())));
+        label.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(label.front())));
     }
     return label;
 }

@@ -185,15 +185,13 @@ void addPaintCommands(Session& session) {
     commands.add(
         "edit.fill", "Applies the operator to everything that is selected",
         [&session](const Arguments& a) {
-            session.edit(subedit::ApplyCommand{
-                                     makeOperator(session.paint, a.flag("inverted", false))});
+            session.edit(
+                subedit::ApplyCommand{makeOperator(session.paint, a.flag("inverted", false))});
         },
         false);
     commands.add(
         "select.change", "all, none, invert; grow, shrink, feather by mm along the surface",
-        [&session](const Arguments& a) {
-            session.edit(subedit::SelectCommand{selectionStep(a)});
-        },
+        [&session](const Arguments& a) { session.edit(subedit::SelectCommand{selectionStep(a)}); },
         false);
     commands.add(
         "select.similar", "Texels whose profile is like that at a point: position and normal",
@@ -202,8 +200,8 @@ void addPaintCommands(Session& session) {
             similar.point.positionMm = glm::vec3(a.vector3("position"));
             similar.point.normal = glm::vec3(a.vector3("normal"));
             similar.tolerance = static_cast<float>(a.numberWithin("tolerance", 1e-3, 1.0));
-            session.edit(subedit::SelectCommand{
-                                     similar, parseSelectMode(a.text("mode", "replace"))});
+            session.edit(
+                subedit::SelectCommand{similar, parseSelectMode(a.text("mode", "replace"))});
         },
         false);
     commands.add(

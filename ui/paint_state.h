@@ -35,8 +35,8 @@ enum class PaintOperator {
     Tint,
     ScaleRange, ///< softer, harder
     SetRange,
-    Shape,   ///< of the primary profile, albedo and range stay
-    Enhance, ///< stronger or weaker differences from the neighborhood
+    Shape,    ///< of the primary profile, albedo and range stay
+    Enhance,  ///< stronger or weaker differences from the neighborhood
     Gradient, ///< from the primary profile to the secondary one along a line in space
     Clone,    ///< copies from another place
     Pattern   ///< copies the differences of another place only

@@ -31,10 +31,10 @@ struct PictureRequest {
     MotionSetting motion;
     WindowDisplay display;
     ViewModeSettings view;
-    int overlayMaterial = -1;     ///< whose selection is drawn over the picture
-    int activeMaterial = 0;       ///< whose map ViewMode::Atlas shows
+    int overlayMaterial = -1;                        ///< whose selection is drawn over the picture
+    int activeMaterial = 0;                          ///< whose map ViewMode::Atlas shows
     std::shared_ptr<const subedit::Surface> surface; ///< of that map; Atlas only
-    bool wantsCounts = false;     ///< of samples and pairs: they take a moment
+    bool wantsCounts = false;                        ///< of samples and pairs: they take a moment
 };
 
 struct Picture {
@@ -46,8 +46,8 @@ struct Picture {
     double timeMs = 0.0;
     bool isFirst = false; ///< of its size and quality: shaders were compiled meanwhile
     StageMilliseconds stages;
-    std::optional<SampleCounts> counts;        ///< where they were wanted
-    std::vector<std::size_t> shownPerLevel;    ///< dots of ViewMode::Samples
+    std::optional<SampleCounts> counts;     ///< where they were wanted
+    std::vector<std::size_t> shownPerLevel; ///< dots of ViewMode::Samples
 };
 
 /// Changed texels of one material, row by row, [height][width][knots][3]; or all of it, another

@@ -21,8 +21,8 @@ void writePicture(const std::filesystem::path& file, const gl::Texture& texture)
     const glm::ivec2 size = texture.size2d();
     std::vector<std::uint8_t> rgba(texture.texelCount() * 4);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glGetTextureImage(texture.id(), 0, GL_RGBA, GL_UNSIGNED_BYTE,
-                      static_cast<GLsizei>(rgba.size()), rgba.data());
+    glGetTextureImage(texture.id(), 0, GL_RGBA, GL_UNSIGNED_BYTE, static_cast<GLsizei>(rgba.size()),
+                      rgba.data());
     std::vector<std::uint8_t> rgb;
     rgb.reserve(texture.texelCount() * 3);
     for (int y = size.y - 1; y >= 0; --y) {

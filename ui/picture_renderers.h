@@ -64,7 +64,7 @@ private:
     std::unique_ptr<GpuDeformation> mDeformation; ///< once something has moved
     std::optional<MotionSetting> mMovedTo;        ///< where it has put the vertices
     std::optional<Pose> mUnseen;                  ///< the same, until a picture has shown it
-    std::list<Ready> mReady; ///< latest used first
+    std::list<Ready> mReady;                      ///< latest used first
     std::unique_ptr<ToneMapPass> mToneMap;
     std::unique_ptr<ViewModePass> mViewMode;
     std::map<int, gl::Texture> mSelections; ///< by material

@@ -55,8 +55,8 @@ bool Script::isReady(const Progress& progress) const {
     if (isReplaying()) {
         return !mReplayer->dueScreenshot() || progress.isQuiet;
     }
-    return mustRepeat() || (mLastScreenshot ? progress.isQuiet
-                                            : mOptions.exitAfterReplay && !progress.isBusy);
+    return mustRepeat() ||
+           (mLastScreenshot ? progress.isQuiet : mOptions.exitAfterReplay && !progress.isBusy);
 }
 
 Script::Step Script::advance(const Progress& progress) {

@@ -23,13 +23,11 @@ public:
     Script(const EditorOptions& options, Session& session);
 
     /// Nobody sits in front of the window.
-    [[nodiscard]] bool isUnattended() const {
-        return mOptions.replay || mOptions.exitAfterReplay;
-    }
+    [[nodiscard]] bool isUnattended() const { return mOptions.replay || mOptions.exitAfterReplay; }
     /// What the replay may have to wait for.
     struct Progress {
-        bool isQuiet = false;          ///< the picture on screen is final
-        bool isBusy = false;           ///< a job is under way in the background
+        bool isQuiet = false;            ///< the picture on screen is final
+        bool isBusy = false;             ///< a job is under way in the background
         std::uint64_t shownRevision = 0; ///< of the session, that the picture on screen shows
     };
     /// advance() would do something.

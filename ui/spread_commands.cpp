@@ -31,18 +31,18 @@ StampImage readStamp(const std::filesystem::path& file) {
     if (gray < 0 && (red < 0 || green < 0 || blue < 0)) {
         throw InputError(fmt::format("'{}'", file.string()), "holds neither colors nor gray");
     }
-    StampImage stamp{file.stem().string(), std::max(1, image.width / box),
-                     std::max(1, image.height / box), {}};
+    StampImage stamp{
+        file.stem().string(), std::max(1, image.width / box), std::max(1, image.height / box), {}};
     for (int y = 0; y < stamp.height; ++y) {
         for (int x = 0; x < stamp.width; ++x) {
             float sum = 0.0f;
             int count = 0;
             for (int j = y * box; j < std::min((y + 1) * box, image.height); ++j) {
                 for (int i = x * box; i < std::min((x + 1) * box, image.width); ++i) {
-                    sum += gray >= 0 ? image.at(i, j, gray)
-                                     : 0.2126f * image.at(i, j, red) +
-                                           0.7152f * image.at(i, j, green) +
-                                           0.0722f * image.at(i, j, blue);
+                    sum += gray >= 0
+                               ? image.at(i, j, gray)
+                               : 0.2126f * image.at(i, j, red) + 0.7152f * image.at(i, j, green) +
+                                     0.0722f * image.at(i, j, blue);
                     ++count;
                 }
             }
@@ -79,27 +79,26 @@ void changePropagation(subedit::Propagation& propagation, const Arguments& a) {
 
 void addScribbles(Session& session) {
     Dispatcher& commands = session.dispatcher();
-    commands.add("scribble.add",
-                 "A rough stroke for propagation: path [x,y,z,nx,ny,nz, ...] in mm, strength 1, or 0 "
-                 "for what is to be left alone",
-                 [&session](const Arguments& a) {
-                     subedit::Scribble scribble;
-                     scribble.brush = session.paint.brush;
-                     scribble.path = pathOf(a);
-                     scribble.strength = static_cast<float>(a.numberWithin("strength", 0.0, 1.0));
-                     if (scribble.path.empty()) {
-                         throw UsageError("scribble", "has no points");
-                     }
-                     session.paint.propagation.scribbles.push_back(std::move(scribble));
-                 });
-    commands.add("scribble.clear", "Takes the scribbles away", [&session](const Arguments&) {
-        session.paint.propagation.scribbles.clear();
-    });
-    commands.add("scribble.change",
-                 "Similarity at which propagation falls to 1/e, and distance in mm (0: any)",
-                 [&session](const Arguments& a) {
-                     changePropagation(session.paint.propagation, a);
-                 });
+    commands.add(
+        "scribble.add",
+        "A rough stroke for propagation: path [x,y,z,nx,ny,nz, ...] in mm, strength 1, or 0 "
+        "for what is to be left alone",
+        [&session](const Arguments& a) {
+            subedit::Scribble scribble;
+            scribble.brush = session.paint.brush;
+            scribble.path = pathOf(a);
+            scribble.strength = static_cast<float>(a.numberWithin("strength", 0.0, 1.0));
+            if (scribble.path.empty()) {
+                throw UsageError("scribble", "has no points");
+            }
+            session.paint.propagation.scribbles.push_back(std::move(scribble));
+        });
+    commands.add("scribble.clear", "Takes the scribbles away",
+                 [&session](const Arguments&) { session.paint.propagation.scribbles.clear(); });
+    commands.add(
+        "scribble.change",
+        "Similarity at which propagation falls to 1/e, and distance in mm (0: any)",
+        [&session](const Arguments& a) { changePropagation(session.paint.propagation, a); });
     commands.add(
         "scribble.apply", "Spreads the operator, or with select the selection, from the scribbles",
         [&session](const Arguments& a) {
@@ -111,8 +110,8 @@ void addScribbles(Session& session) {
             if (a.flag("select", false)) {
                 session.edit(subedit::SelectCommand{propagation, subedit::SelectMode::Replace});
             } else {
-                session.edit(subedit::PropagateCommand{makeOperator(session.paint, false),
-                                                       propagation});
+                session.edit(
+                    subedit::PropagateCommand{makeOperator(session.paint, false), propagation});
             }
         },
         false);
@@ -145,8 +144,8 @@ void addStamps(Session& session) {
             stamp.width = image.width;
             stamp.height = image.height;
             stamp.weights = image.weights;
-            session.edit(subedit::StampCommand{makeOperator(session.paint, a.flag("inverted", false)),
-                                               std::move(stamp)});
+            session.edit(subedit::StampCommand{
+                makeOperator(session.paint, a.flag("inverted", false)), std::move(stamp)});
         },
         false);
 }

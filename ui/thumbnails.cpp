@@ -114,34 +114,35 @@ const gl::Texture* Thumbnails::find(const std::filesystem::path& material) {
 }
 
 void Thumbnails::ask(const std::string& key, const std::filesystem::path& material) {
-    mJobs.start("", "", [this, key, material](const gl::Context& context,
-                                              BackgroundJobs::Progress& progress) {
-        const std::filesystem::path file = mFolder / (key + ".png");
-        std::error_code failed;
-        std::filesystem::create_directories(mFolder, failed);
-        std::vector<std::uint8_t> rgba;
-        if (std::filesystem::is_regular_file(file, failed)) {
-            try {
+    mJobs.start(
+        "", "",
+        [this, key, material](const gl::Context& context, BackgroundJobs::Progress& progress) {
+            const std::filesystem::path file = mFolder / (key + ".png");
+            std::error_code failed;
+            std::filesystem::create_directories(mFolder, failed);
+            std::vector<std::uint8_t> rgba;
+            if (std::filesystem::is_regular_file(file, failed)) {
+                try {
+                    rgba = readThumbnail(file);
+                } catch (const std::exception&) { // broken: made anew
+                    rgba.clear();
+                }
+            }
+            if (rgba.empty()) {
+                render(context, material, file, progress.cancelled());
+                if (progress.isCancelled()) {
+                    return;
+                }
                 rgba = readThumbnail(file);
-            } catch (const std::exception&) { // broken: made anew
-                rgba.clear();
             }
-        }
-        if (rgba.empty()) {
-            render(context, material, file, progress.cancelled());
-            if (progress.isCancelled()) {
-                return;
-            }
-            rgba = readThumbnail(file);
-        }
-        progress.deliver([this, key, pixels = std::move(rgba)] {
-            if (!pixels.empty()) {
-                Entry& entry = mEntries[key];
-                entry.texture = gl::Texture::make2d("thumbnail", GL_RGBA8, glm::ivec2(kSizePx));
-                entry.texture.upload(0, std::span<const std::uint8_t>(pixels));
-            }
+            progress.deliver([this, key, pixels = std::move(rgba)] {
+                if (!pixels.empty()) {
+                    Entry& entry = mEntries[key];
+                    entry.texture = gl::Texture::make2d("thumbnail", GL_RGBA8, glm::ivec2(kSizePx));
+                    entry.texture.upload(0, std::span<const std::uint8_t>(pixels));
+                }
+            });
         });
-    });
 }
 
 } // namespace celadon::ui

@@ -44,9 +44,9 @@ void TruthView::start(const Session& session, glm::ivec2 viewportPx) {
             const auto scene = std::make_shared<const GpuScene>(world, settings);
             for (const int divisor : kDivisors) {
                 settings.size = glm::max(viewportPx / divisor, glm::ivec2(16));
-                std::optional<FrameDifference> found = compareWithTruth(
-                    context, scene, settings, snapshot.camera, lights, snapshot.rig.around(),
-                    progress.cancelled());
+                std::optional<FrameDifference> found =
+                    compareWithTruth(context, scene, settings, snapshot.camera, lights,
+                                     snapshot.rig.around(), progress.cancelled());
                 if (!found) {
                     return;
                 }

@@ -53,8 +53,7 @@ ViewMode parseViewMode(std::string_view word) {
             return name.mode;
         }
     }
-    throw UsageError(fmt::format("view '{}'", word), "there is no such view",
-                     choices());
+    throw UsageError(fmt::format("view '{}'", word), "there is no such view", choices());
 }
 
 const ViewName& viewName(ViewMode mode) {

@@ -172,8 +172,8 @@ bool Viewport::update(Session& session) {
         mLastChange = Clock::now();
     }
     const bool isCurrent = mShownRevision == revision && mShown.windowSizePx == mRect.size;
-    const bool isComing = isWaiting() && mInFlight->revision == revision &&
-                          mInFlight->sizePx == mRect.size;
+    const bool isComing =
+        isWaiting() && mInFlight->revision == revision && mInFlight->sizePx == mRect.size;
     if (isComing) {
         return redraw;
     }
@@ -182,8 +182,8 @@ bool Viewport::update(Session& session) {
         if (mFailures >= kMostFailures) {
             return redraw;
         }
-        // One coarse picture at a time: the one under way is shown before the next is begun, however
-        // long it takes. To give it up for a newer one could go on for ever.
+        // One coarse picture at a time: the one under way is shown before the next is begun,
+        // however long it takes. To give it up for a newer one could go on for ever.
         if (!mInFlight || mInFlight->purpose != Purpose::Change) {
             ask(session, mLadder.movingRung(mRect.size), Purpose::Change);
         }

@@ -72,9 +72,9 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
     enum class Purpose {
-        Change,    ///< shows what has changed: finished and shown, however long it takes
-        Refinement,///< of what is on screen already: given up when something moves
-        Rehearsal  ///< not shown: compiles and measures what a moving hand will need
+        Change,     ///< shows what has changed: finished and shown, however long it takes
+        Refinement, ///< of what is on screen already: given up when something moves
+        Rehearsal   ///< not shown: compiles and measures what a moving hand will need
     };
     struct InFlight {
         std::uint64_t revision = 0;

@@ -51,8 +51,8 @@ std::array<glm::dvec3, 2> tangents(const glm::dvec3& n, double angleDegrees) {
     return {c * right + s * up, c * up - s * right};
 }
 
-void drawRing(const Canvas& canvas, SurfacePicker& picker, const SurfacePoint& hit,
-              double radiusMm, ImU32 color, bool isFaint) {
+void drawRing(const Canvas& canvas, SurfacePicker& picker, const SurfacePoint& hit, double radiusMm,
+              ImU32 color, bool isFaint) {
     constexpr int kPoints = 48;
     std::array<ImVec2, kPoints> points;
     const auto [side, other] = tangents(hit.shadingNormal, 0.0);
@@ -205,16 +205,15 @@ void drawControls(const Canvas& canvas) {
 } // namespace
 
 void drawViewportOverlay(ImDrawList& list, const Session& session, SurfacePicker& picker,
-                         std::optional<glm::dvec2> brushAt, const ViewportRect& rect,
-                         float scale) {
+                         std::optional<glm::dvec2> brushAt, const ViewportRect& rect, float scale) {
     const ViewMode mode = session.view.mode.mode;
     if (!session.hasWorld() || mode == ViewMode::Irradiance || mode == ViewMode::Atlas) {
         return; // flat pictures: nothing lies there in space
     }
     const Canvas canvas{list, session, rect, scale};
     const ImVec2 low(static_cast<float>(rect.origin.x), static_cast<float>(rect.origin.y));
-    list.PushClipRect(low, {low.x + static_cast<float>(rect.size.x),
-                            low.y + static_cast<float>(rect.size.y)});
+    list.PushClipRect(
+        low, {low.x + static_cast<float>(rect.size.x), low.y + static_cast<float>(rect.size.y)});
     if (session.paint.tool == Tool::Scribble) {
         drawScribbles(canvas, picker);
     }

@@ -212,8 +212,8 @@ void ViewportTools::dragOverSurface(glm::dvec2 positionPx, const ViewportRect& r
             mScribble.insert(mScribble.end(), {v.x, v.y, v.z});
         }
     } else if (hit->positionMm != mLineFrom) {
-        mSession.perform({"gradient.line",
-                          {{"from", toJson(mLineFrom)}, {"to", toJson(hit->positionMm)}}});
+        mSession.perform(
+            {"gradient.line", {{"from", toJson(mLineFrom)}, {"to", toJson(hit->positionMm)}}});
     }
 }
 
@@ -415,7 +415,8 @@ std::string ViewportTools::hint() const {
     const char* const dot = "   \xc2\xb7   ";
     if (mAdjust) {
         return mAdjust->what == Adjust::Radius
-                   ? fmt::format("Radius {}{}move sideways, click to keep, Esc to give up", size, dot)
+                   ? fmt::format("Radius {}{}move sideways, click to keep, Esc to give up", size,
+                                 dot)
                    : fmt::format("Flow {:.0f} %{}move sideways, click to keep, Esc to give up",
                                  100.0f * paint.brush.flow, dot);
     }
@@ -429,7 +430,8 @@ std::string ViewportTools::hint() const {
     case Drag::Light:
         return "Moving a light: it goes on aiming at the object";
     case Drag::Control:
-        return "Moving a part of the shape, as far from the eye as it is   \xc2\xb7   Esc to give up";
+        return "Moving a part of the shape, as far from the eye as it is   \xc2\xb7   Esc to give "
+               "up";
     case Drag::Line:
         return "Drawing the line of the gradient";
     default:
@@ -453,10 +455,9 @@ std::string ViewportTools::hint() const {
         return fmt::format("Scribble over what you mean{}Ctrl: over what stays{}then Apply{}{}",
                            dot, dot, dot, turn);
     case Tool::Stamp:
-        return paint.stamp.isSet()
-                   ? fmt::format("Click: stamp '{}', {} half wide{}{}", paint.stamp.name, size, dot,
-                                 turn)
-                   : std::string("Open an image to stamp, or drop one here");
+        return paint.stamp.isSet() ? fmt::format("Click: stamp '{}', {} half wide{}{}",
+                                                 paint.stamp.name, size, dot, turn)
+                                   : std::string("Open an image to stamp, or drop one here");
     case Tool::Paint:
         break;
     }

@@ -32,8 +32,8 @@ struct MakeOptions {
     std::string output;
 };
 
-/// The model's own values, denser towards the center, where they vary most; the row at r = 0 is left
-/// out where one is infinite.
+/// The model's own values, denser towards the center, where they vary most; the row at r = 0 is
+/// left out where one is infinite.
 std::string profileCsv(const RadialCurves& curves, double maxRadiusMm) {
     std::string csv = "r_mm,R,G,B\n";
     for (int i = 0; i <= kCsvIntervals; ++i) {

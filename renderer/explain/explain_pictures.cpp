@@ -125,7 +125,8 @@ void drawSamples(std::span<const ShownSample> samples, const CameraView& camera,
     for (const ShownSample& sample : samples) {
         order.push_back(&sample);
     }
-    std::ranges::stable_sort(order, [](const auto* a, const auto* b) { return a->level > b->level; });
+    std::ranges::stable_sort(order,
+                             [](const auto* a, const auto* b) { return a->level > b->level; });
     const glm::vec2 size(picture.size);
     for (const ShownSample* sample : order) {
         const glm::vec4 eye = camera.view * glm::vec4(sample->positionMm, 1.0f);

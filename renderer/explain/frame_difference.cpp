@@ -43,12 +43,10 @@ std::optional<Exitance> solveWith(const gl::Context& context,
 
 } // namespace
 
-std::optional<FrameDifference> compareWithTruth(const gl::Context& context,
-                                                const std::shared_ptr<const GpuScene>& scene,
-                                                FrameSettings settings, const Camera& camera,
-                                                std::span<const Light> lights,
-                                                const Environment& environment,
-                                                const std::atomic<bool>& cancelled) {
+std::optional<FrameDifference>
+compareWithTruth(const gl::Context& context, const std::shared_ptr<const GpuScene>& scene,
+                 FrameSettings settings, const Camera& camera, std::span<const Light> lights,
+                 const Environment& environment, const std::atomic<bool>& cancelled) {
     settings.coverageSamples = 1;
     settings.specular = false;
     const auto fast = solveWith(context, scene, settings, camera, lights, environment, cancelled);

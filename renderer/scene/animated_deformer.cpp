@@ -79,14 +79,17 @@ double AnimatedDeformer::lastSeconds() const {
 }
 
 const char* deformerName(Deformer::Kind kind) {
-    constexpr std::array kNames{"twist",   "bend",    "taper",  "wave",
-                                "inflate", "lattice", "handles"};
+    constexpr std::array kNames{"twist", "bend", "taper", "wave", "inflate", "lattice", "handles"};
     return kNames.at(static_cast<std::size_t>(kind));
 }
 
 const char* amountName(Deformer::Kind kind) {
-    constexpr std::array kNames{"angleDegrees", "angleDegrees", "scale", "amplitudeMm",
-                                "distanceMm",   static_cast<const char*>(nullptr),
+    constexpr std::array kNames{"angleDegrees",
+                                "angleDegrees",
+                                "scale",
+                                "amplitudeMm",
+                                "distanceMm",
+                                static_cast<const char*>(nullptr),
                                 static_cast<const char*>(nullptr)};
     return kNames.at(static_cast<std::size_t>(kind));
 }

@@ -20,8 +20,8 @@ struct LatticeMove {
 /// A part of the rest shape that is held, or moved as one: what lies within `radius` of `at`, at
 /// least the vertex next to it (handle_solver.h).
 struct Handle {
-    glm::dvec3 at{0.0};  ///< rest shape, model units
-    double radius = 0.0; ///< model units, >= 0
+    glm::dvec3 at{0.0};                                    ///< rest shape, model units
+    double radius = 0.0;                                   ///< model units, >= 0
     KeyedNumbers move = KeyedNumbers::of(glm::dvec3(0.0)); ///< model units
     /// Degrees about x, then y, then z, through `at`.
     KeyedNumbers turnDegrees = KeyedNumbers::of(glm::dvec3(0.0));
@@ -40,12 +40,13 @@ struct PlacedHandle {
 struct AnimatedDeformer {
     AnimatedDeformer() = default;
     /// One that does not change; a lattice's offsets as model units of 1 mm.
-    AnimatedDeformer(const Deformer& constant); // NOLINT(google-explicit-constructor): the same thing
+    AnimatedDeformer(
+        const Deformer& constant); // NOLINT(google-explicit-constructor): the same thing
 
     Deformer::Kind kind = Deformer::Kind::Twist;
     int axis = 1;
-    bool isOn = true; ///< off: stays in the list and does nothing
-    KeyedNumbers amount;       ///< degrees, scale or mm, as Deformer::amount
+    bool isOn = true;    ///< off: stays in the list and does nothing
+    KeyedNumbers amount; ///< degrees, scale or mm, as Deformer::amount
     KeyedNumbers wavelengthMm = KeyedNumbers::of(1.0); ///< Wave; every key above 0
     std::optional<glm::dvec2> range;
     glm::ivec3 latticeSize{3};      ///< Lattice: 2 ... kMaxLatticePoints along each axis

@@ -248,9 +248,9 @@ struct HandleSolver::State {
         Clusters clusters = clusterSurface(graph, count);
         std::vector<VertexNodes> result;
         for (std::size_t i = 0; i < graph.points.size(); ++i) {
-            result.push_back(follow(graph.points[i],
-                                    nearestAround(clusters.graph, clusters.clusterOf[i],
-                                                  graph.points[i], kVertexNodes)));
+            result.push_back(
+                follow(graph.points[i], nearestAround(clusters.graph, clusters.clusterOf[i],
+                                                      graph.points[i], kVertexNodes)));
         }
         level.graph = std::move(clusters.graph);
         return result;
@@ -296,10 +296,10 @@ struct HandleSolver::State {
                 vertices.push_back(point == kNone ? VertexNodes() : ofPoint[point]);
                 vertices.back().at = mesh.positions[i];
             }
-            binding->restPoses.push_back(
-                mesh.binding ? meshPose(*rest.rig, *mesh.binding, restPose(*rest.rig),
-                                        rest.millimetersPerUnit)
-                             : MeshPose());
+            binding->restPoses.push_back(mesh.binding ? meshPose(*rest.rig, *mesh.binding,
+                                                                 restPose(*rest.rig),
+                                                                 rest.millimetersPerUnit)
+                                                      : MeshPose());
         }
     }
 

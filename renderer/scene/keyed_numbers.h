@@ -13,7 +13,7 @@ namespace celadon {
 struct KeyedNumbers {
     std::size_t components = 1;
     Interpolation interpolation = Interpolation::Linear;
-    std::vector<double> times;  ///< seconds, each after the one before; empty: a constant
+    std::vector<double> times;       ///< seconds, each after the one before; empty: a constant
     std::vector<double> values{0.0}; ///< [key][components], of one key where there are no times
 
     /// A constant.
@@ -24,8 +24,8 @@ struct KeyedNumbers {
     [[nodiscard]] bool isKeyed() const { return !times.empty(); }
     /// Before the first key and after the last it stays. @param result `components` numbers
     void sample(double seconds, std::span<double> result) const;
-    [[nodiscard]] double number(double seconds) const;      ///< of one component
-    [[nodiscard]] glm::dvec3 vector(double seconds) const;  ///< of three
+    [[nodiscard]] double number(double seconds) const;     ///< of one component
+    [[nodiscard]] glm::dvec3 vector(double seconds) const; ///< of three
     [[nodiscard]] double lastSeconds() const { return times.empty() ? 0.0 : times.back(); }
 
     /// Sets the key at a time, which becomes one if it is none, in place of a constant too.

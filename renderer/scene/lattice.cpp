@@ -24,8 +24,7 @@ Basis bernstein(int count, double u) {
         if (n == degree) {
             for (int i = 0; i <= degree; ++i) {
                 const auto k = static_cast<std::size_t>(i);
-                basis.slope[k] =
-                    degree * ((i > 0 ? b[k - 1] : 0.0) - (i < degree ? b[k] : 0.0));
+                basis.slope[k] = degree * ((i > 0 ? b[k - 1] : 0.0) - (i < degree ? b[k] : 0.0));
             }
         }
         for (int i = n; i >= 0; --i) {

@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <vector>
 
-/// Free-form deformation (Sederberg, Parry 1986, "Free-form deformation of solid geometric models"):
-/// a grid of control points over the rest box moves what is within by trivariate Bernstein
-/// polynomials. Beyond the box each polynomial goes on along its tangent, so that nothing tears or
-/// shoots away at its border. The same in shaders/include/lattice.glsl.
+/// Free-form deformation (Sederberg, Parry 1986, "Free-form deformation of solid geometric
+/// models"): a grid of control points over the rest box moves what is within by trivariate
+/// Bernstein polynomials. Beyond the box each polynomial goes on along its tangent, so that nothing
+/// tears or shoots away at its border. The same in shaders/include/lattice.glsl.
 namespace celadon {
 
 /// Axis-aligned, of what scatters at rest, in mm.

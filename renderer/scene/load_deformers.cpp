@@ -70,8 +70,8 @@ KeyedNumbers numbersOf(const JsonElement& element, const char* name, std::size_t
     const auto values = keys.value().find("values");
     if (values == keys.value().end() || !values->is_array() ||
         values->size() != result.times.size()) {
-        keys.fail(fmt::format("'values' is not an array of {}",
-                              counted(result.times.size(), "value")));
+        keys.fail(
+            fmt::format("'values' is not an array of {}", counted(result.times.size(), "value")));
     }
     for (const nlohmann::json& value : *values) {
         takeValue(keys, "values", value, components, result.values);
@@ -85,8 +85,7 @@ KeyedNumbers numbersOf(const JsonElement& element, const char* name, std::size_t
     return result;
 }
 
-KeyedNumbers requiredNumbers(const JsonElement& element, const char* name,
-                             std::size_t components) {
+KeyedNumbers requiredNumbers(const JsonElement& element, const char* name, std::size_t components) {
     if (!element.value().contains(name)) {
         element.fail(fmt::format("'{}' is missing", name));
     }

@@ -83,8 +83,8 @@ BoundMesh boundMesh(const World& rest, std::size_t index, const Pose& pose, bool
             const glm::dmat4 toRest =
                 isBound ? blendedMatrix(*mesh.binding, nodes.restPoses[index], v) : glm::dmat4(1.0);
             if (glm::determinant(glm::dmat3(toRest)) != 0.0) {
-                handled = glm::inverse(toRest) *
-                          affineAt(nodes.vertices[index][i], *pose.nodes) * toRest;
+                handled =
+                    glm::inverse(toRest) * affineAt(nodes.vertices[index][i], *pose.nodes) * toRest;
             }
         }
         const glm::dmat3 carrier = cofactors(glm::dmat3(handled)); // a fold turns its normals over

@@ -9,7 +9,8 @@
 #include <vector>
 
 /// What moves a model: a tree of nodes, skins on it, morph targets, animations of them (glTF 2.0,
-/// 3.7 and 3.11), and deformers stored with it, as read and checked. Indices are in range, numbers finite, nodes form trees.
+/// 3.7 and 3.11), and deformers stored with it, as read and checked. Indices are in range, numbers
+/// finite, nodes form trees.
 namespace celadon {
 
 struct AnimatedDeformer; // animated_deformer.h

@@ -80,8 +80,8 @@ std::vector<glm::dvec3> pointNormals(const SurfaceGraph& graph,
                                      const std::vector<glm::dvec3>& positions) {
     std::vector<glm::dvec3> normals(positions.size(), glm::dvec3(0.0));
     for (const Triangle& t : graph.triangles) {
-        const glm::dvec3 n = glm::cross(positions[t[1]] - positions[t[0]],
-                                        positions[t[2]] - positions[t[0]]);
+        const glm::dvec3 n =
+            glm::cross(positions[t[1]] - positions[t[0]], positions[t[2]] - positions[t[0]]);
         for (const std::uint32_t i : t) {
             normals[i] += n;
         }
@@ -151,9 +151,8 @@ struct RigidSolver::State {
         for (std::size_t i = 0; i < positions.size(); ++i) {
             for (std::size_t e = graph.starts[i]; e < graph.starts[i + 1]; ++e) {
                 const std::size_t j = graph.neighbors[e];
-                const glm::dvec3 difference =
-                    positions[j] - positions[i] -
-                    rotations[i] * (graph.points[j] - graph.points[i]);
+                const glm::dvec3 difference = positions[j] - positions[i] -
+                                              rotations[i] * (graph.points[j] - graph.points[i]);
                 sum += weights[e] * glm::dot(difference, difference);
             }
         }

@@ -55,7 +55,8 @@ void walk(const SurfaceGraph& graph, std::span<const std::uint32_t> sources, dou
     }
 }
 
-/// Points at least `spacing` apart along the edges, and no point farther than that from all of them.
+/// Points at least `spacing` apart along the edges, and no point farther than that from all of
+/// them.
 std::vector<std::uint32_t> spreadPoints(const SurfaceGraph& graph, double spacing) {
     std::vector<std::uint32_t> chosen;
     std::vector<bool> isCovered(graph.points.size(), false);

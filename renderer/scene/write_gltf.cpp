@@ -158,8 +158,8 @@ std::string escaped(const std::string& name) {
 
 } // namespace
 
-void writeGltf(const World& world, const std::vector<json>& scattering,
-               const json& extras, const std::filesystem::path& file) {
+void writeGltf(const World& world, const std::vector<json>& scattering, const json& extras,
+               const std::filesystem::path& file) {
     CELADON_ASSERT(scattering.size() == world.materials.size());
     std::vector<json> materials = scattering;
     const std::size_t firstOpaque = materials.size();

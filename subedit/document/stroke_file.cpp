@@ -74,8 +74,8 @@ public:
     }
 
     EditCommand command(const json& value, const std::string& pointer) const {
-        constexpr std::array<std::string_view, 5> kCommands{"apply", "stroke", "propagate",
-                                                            "stamp", "select"};
+        constexpr std::array<std::string_view, 5> kCommands{"apply", "stroke", "propagate", "stamp",
+                                                            "select"};
         const JsonReader in(mSubject, value, pointer);
         EditCommand result;
         switch (in.choice("command", kCommands, "command")) {

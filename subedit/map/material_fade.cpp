@@ -38,8 +38,8 @@ MaterialFade::MaterialFade(MaterialMap from, MaterialMap to)
     const float spacing = std::min(mFirst.maxRadiusMm / static_cast<float>(mFirst.segments),
                                    mSecond.maxRadiusMm / static_cast<float>(mSecond.segments));
     constexpr float kRounding = 1e-4f; // a quotient of 32 is not 33 segments
-    layout.segments = std::clamp(static_cast<int>(std::ceil(radius / spacing - kRounding)), 1,
-                                 kMaxSegments);
+    layout.segments =
+        std::clamp(static_cast<int>(std::ceil(radius / spacing - kRounding)), 1, kMaxSegments);
     layout.maxRadiusMm = static_cast<double>(radius);
     const auto laidOut = [&](const MaterialMap& map) {
         const bool fits = map.width == layout.width && map.height == layout.height &&

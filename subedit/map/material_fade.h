@@ -16,7 +16,7 @@ public:
     [[nodiscard]] MaterialMap at(double t) const;
 
 private:
-    MaterialMap mFirst, mSecond;         ///< as they were given
+    MaterialMap mFirst, mSecond; ///< as they were given
     MaterialMap mFirstLaidOut, mSecondLaidOut;
 };
 

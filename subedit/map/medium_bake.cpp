@@ -60,8 +60,8 @@ public:
             const double albedo = std::clamp(1.0 - x * x, 1e-7, 1.0);
             const auto eta = static_cast<double>(media.eta);
             Entry& entry = mEntries[i];
-            const RadialCurve curve = photonBeamProfile(
-                mediumFromAlbedo(glm::dvec3(albedo), glm::dvec3(1.0), eta))[0];
+            const RadialCurve curve =
+                photonBeamProfile(mediumFromAlbedo(glm::dvec3(albedo), glm::dvec3(1.0), eta))[0];
             entry.curveTotal = curve.total;
             entry.total = halfSpaceTotal(albedo, eta);
             entry.reach = radiusHolding(curve, kHeldEnergy);

@@ -13,10 +13,10 @@ namespace celadon::subedit {
 inline constexpr int kLargestStamp = 512; ///< pixels on a side
 
 struct Stamp {
-    StrokePoint at;             ///< where the picture's middle lies; pressure scales it all
-    float widthMm = 10.0f;      ///< of the picture on the tangent plane, > 0
-    float angleDegrees = 0.0f;  ///< counter-clockwise, seen from outside; 0: its top is upwards (+y)
-    int width = 0;              ///< pixels, 1 to kLargestStamp
+    StrokePoint at;            ///< where the picture's middle lies; pressure scales it all
+    float widthMm = 10.0f;     ///< of the picture on the tangent plane, > 0
+    float angleDegrees = 0.0f; ///< counter-clockwise, seen from outside; 0: its top is upwards (+y)
+    int width = 0;             ///< pixels, 1 to kLargestStamp
     int height = 0;
     std::vector<std::uint8_t> weights; ///< [height][width], top row first; 255: all of the edit
     bool operator==(const Stamp&) const = default;

@@ -1,5 +1,5 @@
-// stroke_region MODEL RECORD BEFORE AFTER: whether two materials differ exactly where the strokes of
-// a record were painted on a model. For window_test.sh; says what is wrong and returns 1.
+// stroke_region MODEL RECORD BEFORE AFTER: whether two materials differ exactly where the strokes
+// of a record were painted on a model. For window_test.sh; says what is wrong and returns 1.
 #include "renderer/scene/builtin.h"
 #include "renderer/scene/load_scene.h"
 #include "renderer/scene/surface_atlas_of_world.h"
@@ -23,15 +23,15 @@ using namespace celadon;
 float distanceTo(const glm::vec3& a, const glm::vec3& b, const glm::vec3& p) {
     const glm::vec3 along = b - a;
     const float length2 = glm::dot(along, along);
-    const float t = length2 > 0.0f ? glm::clamp(glm::dot(p - a, along) / length2, 0.0f, 1.0f) : 0.0f;
+    const float t =
+        length2 > 0.0f ? glm::clamp(glm::dot(p - a, along) / length2, 0.0f, 1.0f) : 0.0f;
     return glm::distance(p, a + t * along);
 }
 
 float distanceToPath(const std::vector<subedit::StrokePoint>& path, const glm::vec3& p) {
     float nearest = glm::distance(path.front().positionMm, p);
     for (std::size_t i = 1; i < path.size(); ++i) {
-        nearest = std::min(nearest,
-                           distanceTo(path[i - 1].positionMm, path[i].positionMm, p));
+        nearest = std::min(nearest, distanceTo(path[i - 1].positionMm, path[i].positionMm, p));
     }
     return nearest;
 }
@@ -45,8 +45,7 @@ int main(int, char** argv) {
     std::vector<subedit::StrokeCommand> strokes;
     for (const ui::Command& command : ui::readCommands(argv[2])) {
         if (command.name == "paint.edit") {
-            const auto edit =
-                subedit::parseCommand("record", command.arguments.at("edit").dump());
+            const auto edit = subedit::parseCommand("record", command.arguments.at("edit").dump());
             if (const auto* stroke = std::get_if<subedit::StrokeCommand>(&edit)) {
                 strokes.push_back(*stroke);
             }
@@ -59,8 +58,8 @@ int main(int, char** argv) {
     Scene scene = model.starts_with("builtin:") ? makeBuiltin(model.substr(8)) : loadScene(model);
     const auto map = std::make_shared<subedit::MaterialMap>(before);
     const std::size_t looks = scene.materials.size();
-    const World world = buildWorld(std::move(scene), map, std::vector<MaterialPointer>(looks),
-                                   nullptr, {});
+    const World world =
+        buildWorld(std::move(scene), map, std::vector<MaterialPointer>(looks), nullptr, {});
     const subedit::Surface surface(makeSurfaceAtlas(world, 0, before.width, before.height));
     const std::size_t values = static_cast<std::size_t>(before.knots()) * 3;
     std::size_t changed = 0, outside = 0, missed = 0;

@@ -17,10 +17,10 @@ void change(Session& session, const char* command, const char* name, double valu
     session.perform({command, {{name, value}}});
 }
 
-constexpr std::array<const char*, 6> kToolLabels{"Paint",   "Select",   "Similar",
-                                                 "Pick",    "Scribble", "Stamp"};
-constexpr std::array<const char*, 6> kToolWords{"paint",   "select",   "similar",
-                                                "pick",    "scribble", "stamp"};
+constexpr std::array<const char*, 6> kToolLabels{"Paint", "Select",   "Similar",
+                                                 "Pick",  "Scribble", "Stamp"};
+constexpr std::array<const char*, 6> kToolWords{"paint", "select",   "similar",
+                                                "pick",  "scribble", "stamp"};
 constexpr std::array<const char*, 6> kToolHelps{
     "Strokes apply the operator (B)",
     "Strokes add to the selection; with Ctrl they take away (M)",
@@ -65,9 +65,9 @@ void drawScribbles(Session& session) {
         change(session, "scribble.change", "distance", static_cast<double>(distance));
     }
     constexpr std::array<const char*, 3> kLabels{"Apply", "Select", "Clear"};
-    constexpr std::array<const char*, 3> kHelps{
-        "Spreads the operator above from the scribbles", "Selects what they spread to",
-        "Takes the scribbles away"};
+    constexpr std::array<const char*, 3> kHelps{"Spreads the operator above from the scribbles",
+                                                "Selects what they spread to",
+                                                "Takes the scribbles away"};
     ImGui::BeginDisabled(propagation.scribbles.empty());
     const int clicked = choiceRow("spread", kLabels.data(), kHelps.data(), 3, -1);
     ImGui::EndDisabled();

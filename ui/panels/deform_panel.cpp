@@ -122,7 +122,8 @@ void drawList(Session& session) {
         const std::string label = fmt::format("{}{}", materialLabel(deformerName(deformer.kind)),
                                               deformer.lastSeconds() > 0.0 ? "  (keys)" : "");
         const float width = ImGui::GetContentRegionAvail().x - 2.0f * (side + 4.0f);
-        // Beside a frame ImGui moves an item down to the frame's text; this one is as high as a frame.
+        // Beside a frame ImGui moves an item down to the frame's text; this one is as high as a
+        // frame.
         ImGui::SetCursorPosY(ImGui::GetCursorPosY() - ImGui::GetStyle().FramePadding.y);
         if (ImGui::Selectable(label.c_str(), session.motion.selected == i, 0, {width, side})) {
             command = {"deform.select", {{"deformer", i}}};

@@ -99,9 +99,9 @@ void drawModeList(Session& session) {
 }
 
 void changeMode(Session& session, const char* argument, const nlohmann::json& value) {
-    session.perform({"view.mode",
-                     {{"name", std::string(viewName(session.view.mode.mode).word)},
-                      {argument, value}}});
+    session.perform(
+        {"view.mode",
+         {{"name", std::string(viewName(session.view.mode.mode).word)}, {argument, value}}});
 }
 
 void drawLightChoice(Session& session) {
@@ -136,8 +136,9 @@ void drawDifference(const LayoutContext& context) {
             "Relative RMSE of the exitance B over the visible surface, quality default");
     readout("Mean ratio", fmt::format("{:.4f}", found->meanRatio),
             "Mean of B over the mean of the truth; 1 is right");
-    readout("Truth took", fmt::format("{:.1f} s, splatting {:.2f} s", 1e-3 * found->truthMs,
-                                      1e-3 * found->splattingMs),
+    readout("Truth took",
+            fmt::format("{:.1f} s, splatting {:.2f} s", 1e-3 * found->truthMs,
+                        1e-3 * found->splattingMs),
             "At the size of the comparison, first frame");
     hint(fmt::format("Black: equal. Yellow: {:.0f} % of the mean exitance or more.{}",
                      100.0 * found->scale,
@@ -186,14 +187,12 @@ void drawTimings(const Viewport& viewport) {
     const float square = 0.7f * ImGui::GetFontSize();
     for (const StageRow& stage : stageRows(picture.stages)) {
         const ImVec2 at = ImGui::GetCursorScreenPos();
-        ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + 0.2f * square},
-                                                  {at.x + square, at.y + 1.2f * square},
-                                                  stage.color, 2.0f);
+        ImGui::GetWindowDrawList()->AddRectFilled(
+            {at.x, at.y + 0.2f * square}, {at.x + square, at.y + 1.2f * square}, stage.color, 2.0f);
         ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 2.0f * square);
         ImGui::TextUnformatted(stage.name);
         const std::string time = fmt::format("{:.1f} ms", stage.timeMs);
-        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x -
-                        ImGui::CalcTextSize(time.c_str()).x);
+        ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(time.c_str()).x);
         ImGui::TextUnformatted(time.c_str());
     }
     ImGui::PopFont();

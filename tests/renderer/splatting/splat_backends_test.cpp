@@ -17,7 +17,7 @@ namespace celadon {
 namespace {
 
 constexpr glm::ivec2 kPicture(60, 44); // no multiple of a tile or of a coarse pixel
-constexpr int kIrradianceSize = 120;    // no power of two
+constexpr int kIrradianceSize = 120;   // no power of two
 
 struct BackendCase {
     const char* name;
