@@ -64,12 +64,25 @@ void TexelEnergy::computeFirst(const float* logProfile) {
 }
 
 void TexelEnergy::addUp() {
-    mTotal = {};
-    for (int i = 0; i < mSegments * 3; i += 3) {
-        mTotal[0] += mEnergy[i];
-        mTotal[1] += mEnergy[i + 1];
-        mTotal[2] += mEnergy[i + 2];
+    // Eight segments side by side: one sum after the other would each wait for the one before.
+    constexpr int kAtOnce = 24;
+    std::array<float, kAtOnce> sum{};
+    const int count = mSegments * 3;
+    int i = 0;
+    for (; i + kAtOnce <= count; i += kAtOnce) {
+        for (int j = 0; j < kAtOnce; ++j) {
+            sum[static_cast<std::size_t>(j)] += mEnergy[static_cast<std::size_t>(i + j)];
+        }
     }
+    for (int j = 0; i + j < count; ++j) {
+        sum[static_cast<std::size_t>(j)] += mEnergy[static_cast<std::size_t>(i + j)];
+    }
+    for (std::size_t half = kAtOnce / 2; half >= 3; half /= 2) {
+        for (std::size_t j = 0; j < half; ++j) {
+            sum[j] += sum[j + half];
+        }
+    }
+    mTotal = {sum[0], sum[1], sum[2]};
 }
 
 int TexelEnergy::segmentHolding(int channel, float& remaining) const {

@@ -28,6 +28,10 @@ public:
         return mTotal[static_cast<std::size_t>(channel)];
     }
 
+    [[nodiscard]] float first(int channel) const { ///< of the first segment
+        return mEnergy[static_cast<std::size_t>(channel)];
+    }
+
     /// Diffuse albedo for knots h mm apart.
     [[nodiscard]] float albedo(int channel, float h) const {
         return 2.0f * std::numbers::pi_v<float> * h * h * total(channel);

@@ -47,13 +47,17 @@ const float* Document::OpenStroke::profile(Surface::Texel texel) const {
                : owner.material().logProfile.data() + texel * values;
 }
 
-void Document::OpenStroke::save(std::span<const std::size_t> texels) {
+std::vector<Document::OpenStroke::Target>
+Document::OpenStroke::save(std::span<const std::size_t> texels) {
     const auto width = static_cast<std::size_t>(owner.material().width);
+    std::vector<Target> targets;
+    targets.reserve(texels.size());
     struct Copy {
-        std::size_t texel;
+        const float* from;
         float* to;
     };
     std::vector<Copy> copies;
+    copies.reserve(texels.size());
     for (const std::size_t texel : texels) {
         const int x = static_cast<int>(texel % width);
         const int y = static_cast<int>(texel / width);
@@ -63,19 +67,24 @@ void Document::OpenStroke::save(std::span<const std::size_t> texels) {
         if (tile == nullptr) {
             tile = std::make_unique<Tile>();
         }
-        float*& before = tile->before[WeightMask::cell(x, y)];
+        const std::size_t cell = WeightMask::cell(x, y);
+        float* const data = owner.texelData(texel);
+        float*& before = tile->before[cell];
         if (before == nullptr) {
             before = owner.mSetAside.take();
-            copies.push_back({texel, before});
+            copies.push_back({data, before});
         }
+        targets.push_back({static_cast<Surface::Texel>(texel), entry.mask.at(x, y), before, data,
+                           &tile->outcome[cell]});
     }
     const std::size_t values = layoutOf(owner.material()).values();
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, copies.size(), 512),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                           for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                              std::copy_n(owner.texelData(copies[i].texel), values, copies[i].to);
+                              std::copy_n(copies[i].from, values, copies[i].to);
                           }
                       });
+    return targets;
 }
 
 std::uint8_t& Document::OpenStroke::outcome(std::size_t texel) {
@@ -127,22 +136,21 @@ void Document::addStrokePoint(const StrokePoint& point) {
 
 /// @return the r_s that the texels need
 float Document::evaluateStroke(std::span<const std::size_t> texels) {
-    mStroke->save(texels);
+    const std::vector<OpenStroke::Target> targets = mStroke->save(texels);
     std::mutex mutex;
     float neededMm = 0.0f;
     tbb::enumerable_thread_specific<PreparedOperator::Worker> workers(
         [&] { return PreparedOperator::Worker(*mStroke->prepared); });
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, texels.size(), 128),
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, targets.size(), 128),
                       [&](const tbb::blocked_range<std::size_t>& range) {
                           PreparedOperator::Worker& worker = workers.local();
                           float needed = 0.0f;
                           for (std::size_t i = range.begin(); i != range.end(); ++i) {
-                              const auto texel = static_cast<Surface::Texel>(texels[i]);
+                              const OpenStroke::Target& target = targets[i];
                               const TexelOutcome outcome =
-                                  worker.evaluate(texel, mStroke->profile(texel),
-                                                  weightToFloat(mStroke->entry.mask.at(texels[i])),
-                                                  texelData(texels[i]));
-                              mStroke->outcome(texels[i]) = static_cast<std::uint8_t>(
+                                  worker.evaluate(target.texel, target.before,
+                                                  weightToFloat(target.weight), target.after);
+                              *target.outcome = static_cast<std::uint8_t>(
                                   (outcome.energyClamped ? 1 : 0) | (outcome.rangeClamped ? 2 : 0));
                               needed = std::max(needed, outcome.neededRadiusMm);
                           }

@@ -17,8 +17,16 @@ struct Document::OpenStroke : ProfileSource {
     /// The operator for the map's layout as it is now.
     void prepare();
     [[nodiscard]] const float* profile(Surface::Texel texel) const override;
+    /// What a texel is computed from and into.
+    struct Target {
+        Surface::Texel texel;
+        WeightMask::Weight weight;
+        const float* before;
+        float* after;
+        std::uint8_t* outcome;
+    };
     /// Sets aside texels that it has not touched yet.
-    void save(std::span<const std::size_t> texels);
+    [[nodiscard]] std::vector<Target> save(std::span<const std::size_t> texels);
     /// Forgets what was set aside: the map is as it was.
     void forget();
     [[nodiscard]] std::uint8_t& outcome(std::size_t texel);

@@ -30,12 +30,17 @@ glm::mat3 turnAbout(const glm::vec3& axis, float sine, float cosine) {
     return glm::mat3(1.0f) + sine * cross + (1.0f - cosine) * (cross * cross);
 }
 
-/// ln((1 - a) e^p + a e^q), both terms in units of the larger so that neither is lost.
+/// ln((1 - a) e^p + a e^q), both terms in units of the larger so that neither is lost: one is 1
+/// then, and needs no exponential.
 CELADON_MULTIVERSION void mixLogs(float* __restrict p, const float* __restrict q, float a,
                                   int count) {
     for (int i = 0; i < count; ++i) {
-        const float top = p[i] > q[i] ? p[i] : q[i];
-        p[i] = top + fastLog((1.0f - a) * fastExp(p[i] - top) + a * fastExp(q[i] - top));
+        const float ahead = q[i] - p[i];
+        const float smaller = fastExp(-std::abs(ahead));
+        const bool isLarger = ahead > 0.0f;
+        const float top = isLarger ? q[i] : p[i];
+        const float atTop = isLarger ? a : 1.0f - a;
+        p[i] = top + fastLog(atTop + (1.0f - atTop) * smaller);
     }
 }
 
@@ -83,7 +88,9 @@ struct OperatorVisitor {
     }
 
     void operator()(const ScaleRange& op) const {
-        scaleRange(glm::pow(op.factor, glm::vec3(weight)));
+        scaleRange({fastExp(weight * std::log(op.factor.x)),
+                    fastExp(weight * std::log(op.factor.y)),
+                    fastExp(weight * std::log(op.factor.z))});
     }
 
     void operator()(const SetRange& op) const {
@@ -100,22 +107,24 @@ struct OperatorVisitor {
         const float curveSpacing = op.curve.maxRadiusMm / static_cast<float>(op.curve.segments);
         const glm::vec3 albedo = editor.albedo();
         glm::vec3 radius(0.0f);
+        glm::vec3 scale(1.0f);
+        glm::vec3 amount(0.0f);
         for (int c = 0; c < 3; ++c) {
             radius[c] = editor.radiusMm(c, kRadiusEnergy);
             const float curveRadius = prepared.mCurveRadiusMm[c];
-            if (radius[c] <= 0.0f || curveRadius <= 0.0f) {
-                continue;
+            if (radius[c] > 0.0f && curveRadius > 0.0f) {
+                scale[c] = radius[c] / curveRadius;
+                amount[c] = weight;
+                outcome.neededRadiusMm =
+                    std::max(outcome.neededRadiusMm, scale[c] * prepared.mCurveHeldRadiusMm[c]);
             }
-            const float scale = radius[c] / curveRadius;
-            const float held = scale * prepared.mCurveHeldRadiusMm[c];
-            outcome.neededRadiusMm = std::max(outcome.neededRadiusMm, held);
-            resampleChannel(op.curve.logProfile.data() + c, op.curve.segments, curveSpacing, scale,
-                            target.values() + c, layout.segments, layout.spacingMm());
-            // A common factor of the curve does not matter: the albedo is restored below.
-            for (int k = 0; k < layout.knots(); ++k) {
-                float& value = editor.values()[k * 3 + c];
-                value += weight * (target.values()[k * 3 + c] - value);
-            }
+        }
+        resampleChannels(op.curve.logProfile.data(), op.curve.segments, curveSpacing, scale,
+                         target.values(), layout.segments, layout.spacingMm());
+        // A common factor of the curve does not matter: the albedo is restored below.
+        for (std::size_t i = 0; i < layout.values(); ++i) {
+            float& value = editor.values()[i];
+            value += amount[static_cast<int>(i % 3)] * (target.values()[i] - value);
         }
         editor.measure();
         // Interpolation and knots move R_P a little: back to where it was.
@@ -236,11 +245,8 @@ struct OperatorVisitor {
             if (albedo[c] > kLargestAlbedo) {
                 outcome.energyClamped = outcome.energyClamped || albedo[c] > 1.0f;
             }
-            const float wanted = std::clamp(albedo[c], 0.0f, kLargestAlbedo);
-            if (wanted != editor.albedo()[c]) {
-                editor.setAlbedo(c, wanted);
-            }
         }
+        editor.setAlbedo(glm::clamp(albedo, 0.0f, kLargestAlbedo));
     }
 
     void clampAlbedo() const {

@@ -3,8 +3,10 @@
 #include "subedit/assert.h"
 #include "subedit/fast_exp.h"
 #include "subedit/fast_log.h"
+#include "subedit/multiversion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -12,42 +14,110 @@ namespace celadon::subedit {
 
 namespace {
 
-/// The first segment's energy E = e^l0 M_1(l1 - l0) in units of h^2 (log_linear.h).
-struct FirstSegment {
-    float logEnergy;
-    float slope; ///< d ln E / d l0 = 1 - M_2 / M_1, M_2 the moment of s^2
-};
+constexpr float kFlatEnergy = -0.69314718f; ///< ln of a first segment's energy with l0 = l1 = 0
+constexpr std::size_t kLanes = 4;           ///< the three channels, and one that does not count
+using Lanes = std::array<float, kLanes>;
 
-FirstSegment firstSegment(float l0, float l1) {
-    const float z = l1 - l0;
-    float m1 = 0.0f;
-    float m2 = 0.0f;
-    if (std::abs(z) < 0.5f) {
-        m1 = 1.0f / 2 +
-             z * (1.0f / 3 + z * (1.0f / 8 + z * (1.0f / 30 + z * (1.0f / 144 + z / 840))));
-        m2 = 1.0f / 3 + z * (1.0f / 4 + z * (1.0f / 10 + z * (1.0f / 36 + z / 168)));
-    } else {
+/// One Newton step towards the l0 of which the first segment has a given energy, in all lanes.
+/// E = e^l0 M_1(l1 - l0) in units of h^2 (log_linear.h), d ln E / d l0 = 1 - M_2 / M_1, M_2 the
+/// moment of s^2. Both branches of each moment are computed, so that the loop vectorizes.
+CELADON_MULTIVERSION void stepFirstKnots(const Lanes& l1, const Lanes& logEnergy, Lanes& l0,
+                                         Lanes& step) {
+    for (std::size_t c = 0; c < kLanes; ++c) {
+        const float z = l1[c] - l0[c];
+        const bool isSmall = std::abs(z) < 0.5f;
+        const float s1 =
+            1.0f / 2 +
+            z * (1.0f / 3 + z * (1.0f / 8 + z * (1.0f / 30 + z * (1.0f / 144 + z / 840))));
+        const float s2 = 1.0f / 3 + z * (1.0f / 4 + z * (1.0f / 10 + z * (1.0f / 36 + z / 168)));
         const float e = fastExp(z);
-        const float inverse = 1.0f / z;
-        m1 = (e - (e - 1.0f) * inverse) * inverse;
-        m2 = (e - 2.0f * m1) * inverse;
+        const float inverse = 1.0f / (isSmall ? 1.0f : z);
+        const float e1 = (e - (e - 1.0f) * inverse) * inverse;
+        const float e2 = (e - 2.0f * e1) * inverse;
+        const float m1 = isSmall ? s1 : e1;
+        const float m2 = isSmall ? s2 : e2;
+        float slope = 1.0f - m2 / m1;
+        slope = slope < 0.2f ? 0.2f : slope;
+        slope = slope > 1.0f ? 1.0f : slope;
+        float change = (logEnergy[c] - l0[c] - fastLog(m1)) / slope;
+        change = change < -4.0f ? -4.0f : change;
+        step[c] = change > 4.0f ? 4.0f : change;
+        l0[c] += step[c];
     }
-    return {l0 + fastLog(m1), std::clamp(1.0f - m2 / m1, 0.2f, 1.0f)};
 }
 
-/// The l0 of a given ln E, which grows with it, by Newton; to 1e-5, where scaling the whole profile
+/// The l0 of given ln E, which grow with them, by Newton; to 1e-5, where scaling the whole profile
 /// by the rest changes nothing that can be seen.
-/// @param start firstSegment() of the l0 given
-float solveFirstKnot(float l0, float l1, FirstSegment start, float logEnergy) {
+void solveFirstKnots(Lanes& l0, const Lanes& l1, const Lanes& logEnergy) {
+    Lanes step;
     for (int i = 0; i < 8; ++i) {
-        const float step = std::clamp((logEnergy - start.logEnergy) / start.slope, -4.0f, 4.0f);
-        l0 += step;
-        if (std::abs(step) < 3e-3f) { // and its square is the error that is left
+        stepFirstKnots(l1, logEnergy, l0, step);
+        float largest = 0.0f;
+        for (const float s : step) {
+            largest = std::max(largest, std::abs(s));
+        }
+        if (largest < 3e-3f) { // and its square is the error that is left
             break;
         }
-        start = firstSegment(l0, l1);
     }
-    return l0;
+}
+
+constexpr std::size_t kLargestValues = (kMaxSegments + 1) * 3;
+using PerValue = std::array<float, kLargestValues>;
+
+/// One value per channel, over all values of a profile.
+void repeat(const glm::vec3& channels, int count, PerValue& values) {
+    for (int i = 0; i < count; i += 3) {
+        const auto k = static_cast<std::size_t>(i);
+        values[k] = channels.x;
+        values[k + 1] = channels.y;
+        values[k + 2] = channels.z;
+    }
+}
+
+CELADON_MULTIVERSION void shiftValues(const float* __restrict shift, int count,
+                                      float* __restrict values) {
+    for (int i = 0; i < count; ++i) {
+        const float shifted = values[i] + shift[i];
+        values[i] = shifted < kLogProfileFloor ? kLogProfileFloor : shifted;
+    }
+}
+
+/// Of each value its knot and its channel.
+struct ValuePlaces {
+    PerValue knot;
+    std::array<int, kLargestValues> channel;
+    ValuePlaces() {
+        for (std::size_t i = 0; i < kLargestValues; ++i) {
+            knot[i] = static_cast<float>(i / 3);
+            channel[i] = static_cast<int>(i % 3);
+        }
+    }
+};
+const ValuePlaces kPlaces;
+
+/// @param step  knots of `in` from one of `out` to the next
+/// @param shift added to ln P
+CELADON_MULTIVERSION void resample(const float* __restrict in, int inSegments,
+                                   const float* __restrict step, const float* __restrict shift,
+                                   const float* __restrict knot, const int* __restrict channel,
+                                   int count, float* __restrict out) {
+    for (int i = 0; i < count; ++i) {
+        float position = knot[i] * step[i];
+        position = position > 1e6f ? 1e6f : position;
+        int k = static_cast<int>(position);
+        k = k < inSegments - 1 ? k : inSegments - 1;
+        const float t = position - static_cast<float>(k);
+        const int from = k * 3 + channel[i];
+        const float start = in[from];
+        const float end = in[from + 3];
+        // Beyond the last knot along its last segment, were it to go on; never upwards.
+        const float inside = t < 1.0f ? t : 1.0f;
+        const float falling = end < start ? end - start : 0.0f;
+        const float value =
+            start * (1.0f - inside) + end * inside + falling * (t - inside) + shift[i];
+        out[i] = value < kLogProfileFloor ? kLogProfileFloor : value;
+    }
 }
 
 /// Shape of a texel that never scattered, r_s / (its 1/e length).
@@ -55,28 +125,15 @@ constexpr float kDefaultLengths = 8.0f;
 
 } // namespace
 
-void resampleChannel(const float* in, int inSegments, float inSpacingMm, float scale, float* out,
-                     int outSegments, float outSpacingMm) {
-    const float step = outSpacingMm / (scale * inSpacingMm);
-    const float shift = -2.0f * fastLog(scale);
-    int k = 0;
-    for (; k <= outSegments; ++k) {
-        const float position = static_cast<float>(k) * step;
-        const auto i = static_cast<int>(position);
-        if (i >= inSegments) {
-            break;
-        }
-        const float value =
-            in[i * 3] + (in[i * 3 + 3] - in[i * 3]) * (position - static_cast<float>(i));
-        out[k * 3] = std::max(value + shift, kLogProfileFloor);
-    }
-    // Beyond the last knot along its last segment, were it to go on; never upwards.
-    const float end = in[inSegments * 3];
-    const float slope = std::min(end - in[inSegments * 3 - 3], 0.0f);
-    for (; k <= outSegments; ++k) {
-        const float beyond = static_cast<float>(k) * step - static_cast<float>(inSegments);
-        out[k * 3] = std::max(end + slope * beyond + shift, kLogProfileFloor);
-    }
+void resampleChannels(const float* in, int inSegments, float inSpacingMm, const glm::vec3& scale,
+                      float* out, int outSegments, float outSpacingMm) {
+    const int count = (outSegments + 1) * 3;
+    PerValue step;
+    PerValue shift;
+    repeat(outSpacingMm / (scale * inSpacingMm), count, step);
+    repeat(-2.0f * glm::vec3(fastLog(scale.x), fastLog(scale.y), fastLog(scale.z)), count, shift);
+    resample(in, inSegments, step.data(), shift.data(), kPlaces.knot.data(), kPlaces.channel.data(),
+             count, out);
 }
 
 std::vector<float> resampleProfile(const StoredProfile& profile, const ProfileLayout& layout) {
@@ -87,10 +144,8 @@ std::vector<float> resampleProfile(const StoredProfile& profile, const ProfileLa
     ProfileEditor source({profile.segments, profile.maxRadiusMm});
     source.load(profile.logProfile.data());
     ProfileEditor result(layout);
-    for (int c = 0; c < 3; ++c) {
-        resampleChannel(profile.logProfile.data() + c, profile.segments, inSpacing, 1.0f,
-                        result.values() + c, layout.segments, layout.spacingMm());
-    }
+    resampleChannels(profile.logProfile.data(), profile.segments, inSpacing, glm::vec3(1.0f),
+                     result.values(), layout.segments, layout.spacingMm());
     result.measure();
     result.fitFirstKnots(source.albedo());
     for (int c = 0; c < 3; ++c) {
@@ -157,18 +212,7 @@ void ProfileEditor::setAlbedo(int channel, float albedo) {
         return;
     }
     if (isBlack(channel)) {
-        int brightest = 0;
-        for (int c = 1; c < 3; ++c) {
-            brightest = mAlbedo[c] > mAlbedo[brightest] ? c : brightest;
-        }
-        const bool isAllBlack = isBlack(brightest);
-        for (int k = 0; k < knots; ++k) {
-            values[k * 3] = isAllBlack ? -kDefaultLengths * static_cast<float>(k) /
-                                             static_cast<float>(mLayout.segments)
-                                       : mValues[static_cast<std::size_t>(k * 3 + brightest)];
-        }
-        mEnergy.compute(mValues.data());
-        mAlbedo[channel] = mEnergy.albedo(channel, mLayout.spacingMm());
+        fillBlack(channel);
     }
     const float shift = fastLog(albedo / mAlbedo[channel]);
     for (int k = 0; k < knots; ++k) {
@@ -177,56 +221,100 @@ void ProfileEditor::setAlbedo(int channel, float albedo) {
     mAlbedo[channel] = albedo;
 }
 
-void ProfileEditor::scaleRange(const glm::vec3& scale) {
-    const glm::vec3 albedo = mAlbedo;
-    bool isChanged = false;
+void ProfileEditor::setAlbedo(const glm::vec3& albedo) {
+    glm::vec3 shift(0.0f);
+    bool isShifted = false;
     for (int c = 0; c < 3; ++c) {
-        if (scale[c] == 1.0f || isBlack(c)) {
+        if (albedo[c] == mAlbedo[c]) {
             continue;
         }
-        isChanged = true;
-        resampleChannel(mValues.data() + c, mLayout.segments, mLayout.spacingMm(), scale[c],
-                        mOther.data() + c, mLayout.segments, mLayout.spacingMm());
-        for (int k = 0; k < mLayout.knots(); ++k) {
-            const auto i = static_cast<std::size_t>(k * 3 + c);
-            mValues[i] = mOther[i];
+        if (albedo[c] < kBlackAlbedo || isBlack(c)) {
+            setAlbedo(c, albedo[c]);
+            continue;
         }
+        shift[c] = fastLog(albedo[c] / mAlbedo[c]);
+        mAlbedo[c] = albedo[c];
+        isShifted = true;
     }
-    if (!isChanged) {
+    if (isShifted) {
+        const int count = mLayout.knots() * 3;
+        PerValue shifts;
+        repeat(shift, count, shifts);
+        shiftValues(shifts.data(), count, mValues.data());
+    }
+}
+
+/// Gives a black channel the brightest other one's shape.
+void ProfileEditor::fillBlack(int channel) {
+    float* values = mValues.data() + channel;
+    int brightest = 0;
+    for (int c = 1; c < 3; ++c) {
+        brightest = mAlbedo[c] > mAlbedo[brightest] ? c : brightest;
+    }
+    const bool isAllBlack = isBlack(brightest);
+    for (int k = 0; k < mLayout.knots(); ++k) {
+        values[k * 3] = isAllBlack ? -kDefaultLengths * static_cast<float>(k) /
+                                         static_cast<float>(mLayout.segments)
+                                   : mValues[static_cast<std::size_t>(k * 3 + brightest)];
+    }
+    mEnergy.compute(mValues.data());
+    mAlbedo[channel] = mEnergy.albedo(channel, mLayout.spacingMm());
+}
+
+void ProfileEditor::scaleRange(const glm::vec3& scale) {
+    const glm::vec3 albedo = mAlbedo;
+    glm::vec3 used(1.0f);
+    for (int c = 0; c < 3; ++c) {
+        used[c] = isBlack(c) ? 1.0f : scale[c];
+    }
+    if (used == glm::vec3(1.0f)) {
         return;
     }
+    resampleChannels(mValues.data(), mLayout.segments, mLayout.spacingMm(), used, mOther.data(),
+                     mLayout.segments, mLayout.spacingMm());
+    mValues.swap(mOther);
     measure();
     fitFirstKnots(albedo);
+    glm::vec3 restored = albedo;
     for (int c = 0; c < 3; ++c) {
-        if (mAlbedo[c] != albedo[c] && !isBlack(c)) {
-            setAlbedo(c, albedo[c]);
-        }
+        restored[c] = isBlack(c) ? mAlbedo[c] : albedo[c];
     }
+    setAlbedo(restored);
 }
 
 void ProfileEditor::fitFirstKnots(const glm::vec3& albedo) {
     const float h = mLayout.spacingMm();
-    bool isChanged = false;
+    Lanes l0{};
+    Lanes l1{};
+    Lanes logEnergy{};
+    glm::bvec3 isFitted(false);
     for (int c = 0; c < 3; ++c) {
-        if (isBlack(c) || mAlbedo[c] == albedo[c]) {
-            continue;
-        }
-        float& l0 = mValues[static_cast<std::size_t>(c)];
-        const float l1 = mValues[static_cast<std::size_t>(3 + c)];
-        const FirstSegment segment = firstSegment(l0, l1);
-        const float first = fastExp(segment.logEnergy);
+        const auto lane = static_cast<std::size_t>(c);
+        l0[lane] = mValues[lane];
+        l1[lane] = mValues[3 + lane];
+        const float first = mEnergy.first(c);
         const float rest = mEnergy.total(c) - first;
         const float wanted = albedo[c] / (2.0f * std::numbers::pi_v<float> * h * h) - rest;
         // A first segment of a tenth or ten times the energy is no longer the same profile.
-        if (wanted > 0.1f * first && wanted < 10.0f * first) {
-            l0 = solveFirstKnot(l0, l1, segment, fastLog(wanted));
-            isChanged = true;
+        isFitted[c] = !isBlack(c) && mAlbedo[c] != albedo[c] && wanted > 0.1f * first &&
+                      wanted < 10.0f * first;
+        logEnergy[lane] = isFitted[c] ? fastLog(wanted) : kFlatEnergy;
+        if (!isFitted[c]) {
+            l0[lane] = l1[lane] = 0.0f;
         }
     }
-    if (isChanged) {
-        mEnergy.computeFirst(mValues.data());
-        takeAlbedo();
+    if (!isFitted[0] && !isFitted[1] && !isFitted[2]) {
+        return;
     }
+    logEnergy[3] = kFlatEnergy;
+    solveFirstKnots(l0, l1, logEnergy);
+    for (int c = 0; c < 3; ++c) {
+        if (isFitted[c]) {
+            mValues[static_cast<std::size_t>(c)] = l0[static_cast<std::size_t>(c)];
+        }
+    }
+    mEnergy.computeFirst(mValues.data());
+    takeAlbedo();
 }
 
 } // namespace celadon::subedit

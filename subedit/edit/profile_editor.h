@@ -31,11 +31,11 @@ inline constexpr float kLargestAlbedo = 1.0f - 4e-6f;
 /// program (BakeSettings::heldEnergy), is given back to what is stored.
 inline constexpr float kHeldEnergy = 0.999f;
 
-/// ln P of one channel at knots that lie `outSpacing` apart, of a profile scaled in range by s:
-/// P(r / s) / s^2, linear in ln P between the knots given and on beyond the last of them.
-/// @param in, out one channel of knots: every third value
-void resampleChannel(const float* in, int inSegments, float inSpacingMm, float scale, float* out,
-                     int outSegments, float outSpacingMm);
+/// ln P at knots that lie `outSpacingMm` apart, of a profile whose channels are scaled in range by
+/// s: P(r / s) / s^2, linear in ln P between the knots given and on beyond the last of them.
+/// @param in, out knots x 3; not the same memory
+void resampleChannels(const float* in, int inSegments, float inSpacingMm, const glm::vec3& scale,
+                      float* out, int outSegments, float outSpacingMm);
 
 /// The profile at the layout's knots; each channel keeps its albedo. The same layout: a copy.
 [[nodiscard]] std::vector<float> resampleProfile(const StoredProfile& profile,
@@ -64,6 +64,8 @@ public:
     /// Scales P so that a channel has this albedo. A black channel first takes its shape from the
     /// brightest other one, or an exponential if there is none.
     void setAlbedo(int channel, float albedo);
+    /// The same of all channels; those that have theirs stay as they are.
+    void setAlbedo(const glm::vec3& albedo);
     /// P(r / s) / s^2 in each channel, at the same albedo. Without effect on a black channel.
     void scaleRange(const glm::vec3& scale);
     /// The first knots become what gives the channels these albedos, all others staying: what a
@@ -76,6 +78,7 @@ public:
 
 private:
     void takeAlbedo();
+    void fillBlack(int channel);
 
     ProfileLayout mLayout;
     TexelEnergy mEnergy;

@@ -47,7 +47,8 @@ StrokeMask::StrokeMask(const Surface& surface, const Brush& brush, const Mirror&
     : mSurface(surface),
       mBrush(brush),
       mMirror(mirror),
-      mTiles((surface.texelCount() + kTileTexels - 1) / kTileTexels) {
+      mTiles((surface.texelCount() + kTileTexels - 1) / kTileTexels),
+      mVisited(surface.texelCount() / 64 + 1) {
     CELADON_ASSERT(brush.radiusMm > 0.0f && brush.spacing > 0.0f);
 }
 
@@ -66,6 +67,19 @@ StrokeMask::Tile& StrokeMask::tileOf(Texel texel) {
         tile = std::make_unique<Tile>();
     }
     return *tile;
+}
+
+inline bool StrokeMask::visit(Texel texel) {
+    std::uint64_t& word = mVisited[texel / 64];
+    const std::uint64_t bit = std::uint64_t{1} << (texel % 64);
+    if ((word & bit) != 0) {
+        return false;
+    }
+    if (word == 0) {
+        mVisitedWords.push_back(texel / 64);
+    }
+    word |= bit;
+    return true;
 }
 
 std::vector<StrokeMask::Texel> StrokeMask::takeChanged() {
@@ -165,9 +179,8 @@ void StrokeMask::addDab(const Dab& dab) {
     }
     // The flood may step one texel out of the ball, so that a ball of few texels stays connected.
     const float reach = radius + mSurface.texelSizeMm();
-    ++mVisitRound;
     mFront.assign(1, *seed);
-    tileOf(*seed).visited[*seed % kTileTexels] = mVisitRound;
+    visit(*seed);
     for (std::size_t i = 0; i < mFront.size(); ++i) {
         const Texel texel = mFront[i];
         const float distance = glm::distance(mSurface.positionMm(texel), dab.centerMm);
@@ -187,17 +200,19 @@ void StrokeMask::addDab(const Dab& dab) {
             }
         }
         mSurface.forEachNeighbor(texel, [&](Texel neighbor) {
-            std::uint32_t& visited = tileOf(neighbor).visited[neighbor % kTileTexels];
-            if (visited == mVisitRound) {
-                return;
+            if (!visit(neighbor)) {
+                return; // or found too far: once is enough
             }
-            visited = mVisitRound; // or found too far: once is enough
             if (glm::dot(mSurface.normal(neighbor), dab.normal) > 0.0f &&
                 glm::distance(mSurface.positionMm(neighbor), dab.centerMm) <= reach) {
                 mFront.push_back(neighbor);
             }
         });
     }
+    for (const Texel word : mVisitedWords) {
+        mVisited[word] = 0;
+    }
+    mVisitedWords.clear();
 }
 
 } // namespace celadon::subedit

@@ -44,14 +44,15 @@ private:
     void addMirrored(const Dab& dab);
     void addDab(const Dab& dab);
 
-    static constexpr int kTileTexels = 1024;
+    static constexpr int kTileTexels = 64; ///< few: a dab leaves a map's row soon
     /// What is known of consecutive texels; made where a dab comes by.
     struct Tile {
         std::array<float, kTileTexels> weight{};
         std::array<std::uint32_t, kTileTexels> changed{}; ///< the takeChanged() it is listed for
-        std::array<std::uint32_t, kTileTexels> visited{}; ///< the dab that reached it last
     };
     [[nodiscard]] Tile& tileOf(Texel texel);
+    /// Marks a texel as visited by the dab. @return whether it was not yet
+    bool visit(Texel texel);
 
     const Surface& mSurface;
     Brush mBrush;
@@ -59,7 +60,8 @@ private:
     std::vector<std::unique_ptr<Tile>> mTiles;
     std::vector<Texel> mChanged;
     std::uint32_t mChangeRound = 1;
-    std::uint32_t mVisitRound = 0;
+    std::vector<std::uint64_t> mVisited; ///< a bit for each texel; all 0 between dabs
+    std::vector<Texel> mVisitedWords;    ///< those that are not 0
     std::vector<Texel> mFront;
 
     std::optional<StrokePoint> mLast;

@@ -89,7 +89,7 @@ void dab(benchmark::State& state) {
 BENCHMARK(dab)
     ->ArgNames({"operator", "rangeTable"})
     ->ArgsProduct({{0, 1, 2}, {0, 1}})
-    ->Iterations(100)
+    ->Iterations(400)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
