@@ -208,7 +208,7 @@ void addMethod(CLI::App& app, RenderOptions& o) {
             o.orientation, false);
     addOption(app, "--energy",
               {group, "F",
-               "Part of a profile's energy that a splat reaches to; default 0.99 (paper: 0.95)"},
+               "Part of a profile's energy that a splat reaches to; default 0.995 (paper: 0.95)"},
               takeNumber(o.energy, {0.0, 1.0, true}));
     addFlag(app, "--no-adaptive", group, "Every lit finest texel is a sample", o.adaptive, false);
     addFlag(app, "--no-multires", group, "Every splat reaches to its end at full resolution",

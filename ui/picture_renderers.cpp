@@ -95,8 +95,8 @@ void PictureRenderers::dropScene() {
     mScene.reset();
 }
 
-void PictureRenderers::move(const MotionSetting& wanted) {
-    if (mMovedTo == wanted) {
+void PictureRenderers::move(const MotionSetting& wanted, Settling settling) {
+    if (mMovedTo == wanted && (mIsSettled || settling == Settling::Preview)) {
         return;
     }
     mMotion->setDeformers(wanted.deformers);
@@ -104,13 +104,14 @@ void PictureRenderers::move(const MotionSetting& wanted) {
     if (!mDeformation && !mMotion->moves()) {
         return;
     }
-    Pose pose = mMotion->at(wanted.seconds);
+    Pose pose = mMotion->at(wanted.seconds, settling);
     if (!mDeformation) {
         mDeformation = std::make_unique<GpuDeformation>(mScene->shaders, *mWorld, mScene->gpuWorld);
     }
     mMovedTo.reset();
     mDeformation->apply(pose);
     mMovedTo = wanted;
+    mIsSettled = settling == Settling::Full || !pose.nodes;
     mUnseen = std::move(pose);
     for (const Ready& entry : mReady) {
         entry.renderer->geometryChanged();
@@ -219,7 +220,8 @@ std::optional<Picture> PictureRenderers::render(const PictureRequest& request,
         picture.rgba = std::move(pixels.rgba);
         return finish(std::move(picture));
     }
-    move(request.motion);
+    move(request.motion,
+         request.rung.quality == Quality::Sketch ? Settling::Preview : Settling::Full);
     Picture picture;
     FrameRenderer& renderer = rendererFor(request, picture.isFirst);
     std::vector<Light> lights = request.lights;

@@ -42,7 +42,7 @@ private:
     };
     /// Moves the vertices to where a picture wants them, if they are not there.
     /// @throws InputError where they cannot be
-    void move(const MotionSetting& wanted);
+    void move(const MotionSetting& wanted, Settling settling);
     /// Once a picture is made of it. @throws InputError where vertices are beyond all numbers
     void checkMove();
     void makeScene();
@@ -63,6 +63,7 @@ private:
     std::unique_ptr<Motion> mMotion;              ///< of mWorld
     std::unique_ptr<GpuDeformation> mDeformation; ///< once something has moved
     std::optional<MotionSetting> mMovedTo;        ///< where it has put the vertices
+    bool mIsSettled = true;                       ///< and whether handles' search went to its end
     std::optional<Pose> mUnseen;                  ///< the same, until a picture has shown it
     std::list<Ready> mReady;                      ///< latest used first
     std::unique_ptr<ToneMapPass> mToneMap;

@@ -7,7 +7,10 @@ namespace celadon::ui {
 namespace {
 
 constexpr double kPatienceMs = 900.0; ///< at rest, a first better picture comes within this time
+/// Without one in between the default may take longer: together the two would take longer still.
+constexpr double kDefaultPatienceMs = 3000.0;
 constexpr double kFallback = 400.0;   ///< ms per unit of cost before anything was measured
+constexpr double kShareOfFirst = 0.5; ///< of a first picture's time that later ones take
 constexpr double kSmoothing = 0.5;    ///< weight of the latest time
 
 /// Relative cost of a rung: texels of the light view and pixels of the picture both count.
@@ -68,7 +71,8 @@ std::optional<int> QualityLadder::nextRung(int shown, glm::ivec2 sizePx) const {
     // The finest that still comes soon; where none does, the next one.
     int next = shown + 1;
     for (int i = next; i < last; ++i) { // the last is for those who wait
-        if (expectedMs(i, sizePx) <= kPatienceMs) {
+        const bool isDefault = mRungs[static_cast<std::size_t>(i)].quality == Quality::Default;
+        if (expectedMs(i, sizePx) <= (isDefault ? kDefaultPatienceMs : kPatienceMs)) {
             next = i;
         }
     }
@@ -80,6 +84,12 @@ void QualityLadder::measured(int rung, glm::ivec2 sizePx, double timeMs) {
     const double now = timeMs / costOf(mRungs[index], sizePx);
     double& known = mMsPerCost[index];
     known = known > 0.0 ? known + kSmoothing * (now - known) : now;
+}
+
+void QualityLadder::measuredFirst(int rung, glm::ivec2 sizePx, double timeMs) {
+    if (mMsPerCost[static_cast<std::size_t>(rung)] == 0.0) {
+        measured(rung, sizePx, kShareOfFirst * timeMs);
+    }
 }
 
 void QualityLadder::forget() {

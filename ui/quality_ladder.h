@@ -33,6 +33,9 @@ public:
     [[nodiscard]] std::optional<int> nextRung(int shown, glm::ivec2 sizePx) const;
 
     void measured(int rung, glm::ivec2 sizePx, double timeMs);
+    /// A picture that also compiled shaders and filled its buffers: half of its time or so is
+    /// taken, until there is a better one.
+    void measuredFirst(int rung, glm::ivec2 sizePx, double timeMs);
     /// Another scene: times mean nothing any more.
     void forget();
 

@@ -82,9 +82,10 @@ bool Viewport::takePicture(Session& session) {
     return true;
 }
 
-/// Pictures that compiled shaders say nothing of those that follow.
+/// Pictures that compiled shaders say little of those that follow.
 void Viewport::learn(const Picture& picture) {
     if (picture.isFirst) {
+        mLadder.measuredFirst(picture.rungIndex, picture.windowSizePx, picture.timeMs);
         return;
     }
     mLadder.measured(picture.rungIndex, picture.windowSizePx, picture.timeMs);

@@ -66,6 +66,13 @@ public:
     void build(const LightTexels& texels, const GatherMaterials& materials,
                const TreeSettings& settings);
 
+    /// Takes over the memory that only building needs, from a tree that is only compared with from
+    /// now on: more than half of it.
+    void takeWorkspace(SampleTree& other) {
+        mMeans.swap(other.mMeans);
+        mRoots.swap(other.mRoots);
+    }
+
     /// From the leaves to one root; levels beyond settings.levels only bound their subtrees. Empty
     /// where nothing is lit.
     [[nodiscard]] const std::vector<Level>& levels() const { return mLevels; }

@@ -110,4 +110,16 @@ void TileLoader::store(const ViewTexels& level, glm::ivec2 corner, std::uint64_t
     }
 }
 
+void TileLoader::add(const ViewTexels& level, glm::ivec2 corner) const {
+    for (int lane = 0; lane < gather::kTilePixels; ++lane) {
+        if (tile.rangeMm[lane] == 0.0f) {
+            continue;
+        }
+        float* out = level.exitance + indexOf(level, corner, lane);
+        for (int c = 0; c < 3; ++c) {
+            out[c] = std::max(out[c] + tile.sums[lane][c], 0.0f);
+        }
+    }
+}
+
 } // namespace celadon

@@ -23,6 +23,8 @@ public:
     void loadProfiles(const ViewTexels& level, glm::ivec2 corner);
     /// The tile's sums become the level's, and its pairs, spread over its pixels.
     void store(const ViewTexels& level, glm::ivec2 corner, std::uint64_t pairs) const;
+    /// The tile's sums are added to the level's, which do not become negative.
+    void add(const ViewTexels& level, glm::ivec2 corner) const;
 
     gather::Tile tile{};
     PointBounds bounds;

@@ -51,8 +51,10 @@ struct GatherSettings {
 /// Writes what the tree's samples bring to one level of the splatting buffer, where something
 /// scatters. @return pairs
 /// @param level   which of `levelCount`
-/// @param change  null: all is gathered. Else tiles that nothing of it reaches stay as they are,
-///                which is what gathering them again would find, bit for bit; hierarchical only.
+/// @param change  null: all is gathered. Else what the changed samples brought is taken away from
+///                the sums, and what they bring now added: what gathering all again would find, but
+///                for rounding (1e-6 of the brightest). Tiles that nothing of it reaches stay as
+///                they are, bit for bit. Hierarchical only.
 std::uint64_t gatherLevel(const SampleTree& tree, const GatherMaterials& materials,
                           const ViewTexels& view, int level, int levelCount,
                           const GatherSettings& settings, const GatherChange* change = nullptr);

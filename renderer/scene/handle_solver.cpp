@@ -21,6 +21,7 @@ namespace {
 constexpr std::size_t kCoarseNodes = 500; ///< a guess to start from costs next to nothing there
 constexpr int kMostIterations = 100;
 constexpr double kStill = 1e-5; ///< of the size of the whole: it has settled
+constexpr double kStillInPreview = 1e-3;
 constexpr std::uint32_t kNone = ~0u;
 
 /// All meshes as one surface.
@@ -160,15 +161,6 @@ struct Level {
         }
         solver->setTargets(targets);
     }
-
-    /// @return iterations until nothing moves any more
-    int settle(double still) {
-        int count = 1;
-        while (solver->iterate() > still && count < kMostIterations) {
-            ++count;
-        }
-        return count;
-    }
 };
 
 double milliseconds(std::chrono::steady_clock::time_point since) {
@@ -187,6 +179,7 @@ struct HandleSolver::State {
     std::vector<std::string> warnings;
     double size = 0.0; ///< mm
     std::vector<PlacedHandle> solvedHandles;
+    Settling solvedTo = Settling::Full;
     std::shared_ptr<const NodePose> solved;
     Effort effort;
 
@@ -304,7 +297,7 @@ struct HandleSolver::State {
     }
 
     /// A few points settle first and carry the nodes to where their own search begins.
-    void start(const std::vector<PlacedHandle>& handles) {
+    void start(const std::vector<PlacedHandle>& handles, double still) {
         fine.setTargets(handles);
         if (!coarse) {
             fine.solver->startFromHeld();
@@ -312,7 +305,7 @@ struct HandleSolver::State {
         }
         coarse->setTargets(handles);
         coarse->solver->startFromHeld();
-        coarse->settle(size * kStill);
+        coarse->solver->settle(still, kMostIterations);
         const NodePose pose{coarseBinding, coarse->solver->nodes()};
         std::vector<MovedNode> guess;
         for (const VertexNodes& node : fineFromCoarse) {
@@ -338,18 +331,21 @@ const HandleSolver::Effort& HandleSolver::effort() const {
     return mState->effort;
 }
 
-std::shared_ptr<const NodePose> HandleSolver::solve(const std::vector<PlacedHandle>& handles) {
+std::shared_ptr<const NodePose> HandleSolver::solve(const std::vector<PlacedHandle>& handles,
+                                                    Settling settling) {
     State& s = *mState;
-    if (s.solved && s.solvedHandles == handles) {
+    if (s.solved && s.solvedTo == settling && s.solvedHandles == handles) {
         return s.solved;
     }
+    const double still = s.size * (settling == Settling::Full ? kStill : kStillInPreview);
     const auto start = std::chrono::steady_clock::now();
-    s.start(handles);
+    s.start(handles, still);
     const auto guessed = std::chrono::steady_clock::now();
-    s.effort.iterations = s.fine.settle(s.size * kStill);
+    s.effort.iterations = s.fine.solver->settle(still, kMostIterations);
     s.effort.msPerIteration = milliseconds(guessed) / s.effort.iterations;
     s.solved = std::make_shared<const NodePose>(NodePose{s.binding, s.fine.solver->nodes()});
     s.solvedHandles = handles;
+    s.solvedTo = settling;
     s.effort.ms = milliseconds(start);
     return s.solved;
 }

@@ -17,6 +17,12 @@ namespace celadon {
 inline constexpr std::size_t kMostNodes = 20000;
 inline constexpr std::size_t kClusterNodes = 4000;
 
+/// How far the search for a pose goes.
+enum class Settling {
+    Full,   ///< until nothing moves
+    Preview ///< until little moves: what is seen while a handle is dragged
+};
+
 class HandleSolver {
 public:
     /// Makes the graph and factors its system: from milliseconds to a second or so.
@@ -32,7 +38,8 @@ public:
 
     /// Depends on the handles alone, not on where they were before.
     /// @param handles those of the constructor, moved
-    [[nodiscard]] std::shared_ptr<const NodePose> solve(const std::vector<PlacedHandle>& handles);
+    [[nodiscard]] std::shared_ptr<const NodePose> solve(const std::vector<PlacedHandle>& handles,
+                                                        Settling settling = Settling::Full);
 
     struct Effort {
         std::size_t vertices = 0; ///< welded

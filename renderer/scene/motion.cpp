@@ -130,13 +130,14 @@ double Motion::durationSeconds() const {
     return duration;
 }
 
-Pose Motion::at(double seconds) const {
+Pose Motion::at(double seconds, Settling settling) const {
     Pose result;
     result.meshes.resize(mRest.meshes.size());
     result.mirrored.resize(mRest.meshes.size());
     result.deformers = deformersAt(seconds);
     if (const AnimatedDeformer* const held = handles()) {
-        result.nodes = mHandles->solve(held->handlesAt(seconds, mRest.millimetersPerUnit));
+        result.nodes =
+            mHandles->solve(held->handlesAt(seconds, mRest.millimetersPerUnit), settling);
     }
     result.box = mBox;
     result.cameras = mCameras;

@@ -59,7 +59,7 @@ public:
     [[nodiscard]] double durationSeconds() const;
     /// The animation starts over after its end; deformers stay as their last keys have them.
     /// @throws InputError for a lattice that flattens everything at that time
-    [[nodiscard]] Pose at(double seconds) const;
+    [[nodiscard]] Pose at(double seconds, Settling settling = Settling::Full) const;
 
 private:
     const World& mRest;

@@ -2,13 +2,16 @@
 
 #include "subedit/assert.h"
 
+#include <Eigen/Dense>
 #include <Eigen/SparseCholesky>
 #include <glm/gtc/quaternion.hpp>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 namespace celadon {
 
@@ -47,7 +50,7 @@ std::vector<double> cotangentWeights(const SurfaceGraph& graph) {
 /// "A robust method to extract the rotational part of deformations").
 glm::dmat3 rotationOf(const glm::dmat3& matrix, const glm::dmat3& guess) {
     constexpr int kMostSteps = 30;
-    constexpr double kSmallestTurn = 1e-10; // radians
+    constexpr double kSmallestTurn = 1e-6; // radians; the next would be about its square
     double size = 0.0;
     for (int c = 0; c < 3; ++c) {
         size += glm::dot(matrix[c], matrix[c]);
@@ -66,11 +69,11 @@ glm::dmat3 rotationOf(const glm::dmat3& matrix, const glm::dmat3& guess) {
             along += glm::dot(R[c], matrix[c]);
         }
         const glm::dvec3 omega = axis / (std::abs(along) + 1e-9 * size);
-        const double angle = glm::length(omega);
-        if (!(angle > kSmallestTurn)) {
+        // By 2 arctan(|omega| / 2): as far as the angle, but for the large ones, that are guesses.
+        q = glm::normalize(glm::dquat(1.0, 0.5 * omega) * q);
+        if (!(glm::dot(omega, omega) > kSmallestTurn * kSmallestTurn)) {
             break;
         }
-        q = glm::normalize(glm::angleAxis(angle, omega / angle) * q);
     }
     return glm::mat3_cast(q);
 }
@@ -89,6 +92,72 @@ std::vector<glm::dvec3> pointNormals(const SurfaceGraph& graph,
     return normals;
 }
 
+using Places = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+
+/// The longest of some ways.
+double farthestOf(const Places& ways) {
+    return ways.rows() == 0 ? 0.0 : std::sqrt(ways.rowwise().squaredNorm().maxCoeff());
+}
+
+/// Where the steps of x <- g(x) lead to, guessed from the last few of them: the combination of them
+/// that would have moved least (Anderson 1965; for alternating steps like these Peng et al. 2018,
+/// "Anderson acceleration for geometry optimization and physics simulation").
+class FixedPointHistory {
+public:
+    void clear() { mCount = 0; }
+
+    /// @return the next x
+    Places next(const Places& x, const Places& g) {
+        const Places move = g - x;
+        const int used = std::min(mCount, kSteps);
+        if (mCount > 0) {
+            const int slot = (mCount - 1) % kSteps;
+            const auto at = static_cast<std::size_t>(slot);
+            mMoveChanges[at] = move - mLastMove;
+            mPlaceChanges[at] = g - mLastPlaces;
+            for (int i = 0; i < used; ++i) {
+                mProducts(slot, i) = mProducts(i, slot) =
+                    productOf(mMoveChanges[at], mMoveChanges[static_cast<std::size_t>(i)]);
+            }
+        }
+        mLastMove = move;
+        mLastPlaces = g;
+        ++mCount;
+        if (used == 0) {
+            return g;
+        }
+        Eigen::MatrixXd products = mProducts.topLeftCorner(used, used);
+        Eigen::VectorXd right(used);
+        for (int i = 0; i < used; ++i) {
+            right(i) = productOf(mMoveChanges[static_cast<std::size_t>(i)], move);
+        }
+        // Steps much alike make the system nearly singular: a little damping keeps its solution
+        // small.
+        products.diagonal() *= 1.0 + 1e-10;
+        const Eigen::VectorXd weight = products.ldlt().solve(right);
+        Places result = g;
+        for (int i = 0; i < used; ++i) {
+            if (!std::isfinite(weight(i))) {
+                clear();
+                return g;
+            }
+            result -= weight(i) * mPlaceChanges[static_cast<std::size_t>(i)];
+        }
+        return result;
+    }
+
+private:
+    static double productOf(const Places& a, const Places& b) {
+        return (a.array() * b.array()).sum();
+    }
+
+    static constexpr int kSteps = 6;
+    int mCount = 0; ///< of steps seen
+    Places mLastMove, mLastPlaces;
+    std::array<Places, kSteps> mMoveChanges, mPlaceChanges;
+    Eigen::Matrix<double, kSteps, kSteps> mProducts; ///< of the changes of moves
+};
+
 } // namespace
 
 struct RigidSolver::State {
@@ -100,6 +169,7 @@ struct RigidSolver::State {
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor;
     std::vector<glm::dvec3> positions;
     std::vector<glm::dmat3> rotations;
+    std::vector<double> energies; ///< of the last local step, by point
 
     State(const SurfaceGraph& graph_, std::vector<std::uint32_t> held_)
         : graph(graph_), held(std::move(held_)), weights(cotangentWeights(graph_)) {
@@ -146,19 +216,6 @@ struct RigidSolver::State {
                           });
     }
 
-    double energy() const {
-        double sum = 0.0;
-        for (std::size_t i = 0; i < positions.size(); ++i) {
-            for (std::size_t e = graph.starts[i]; e < graph.starts[i + 1]; ++e) {
-                const std::size_t j = graph.neighbors[e];
-                const glm::dvec3 difference = positions[j] - positions[i] -
-                                              rotations[i] * (graph.points[j] - graph.points[i]);
-                sum += weights[e] * glm::dot(difference, difference);
-            }
-        }
-        return sum;
-    }
-
     /// Quaternions that are the mean of their neighbors', weighted as edges are, at free points.
     void spreadTurns() {
         const auto size = static_cast<Eigen::Index>(freePoints.size());
@@ -189,27 +246,62 @@ struct RigidSolver::State {
         }
     }
 
-    /// The rotation of each free point that fits its edges best (eq. 5).
-    void localStep() {
-        forEach(freePoints.size(), [&](std::size_t f) {
-            const std::size_t i = freePoints[f];
-            glm::dmat3 covariance(0.0);
-            for (std::size_t e = graph.starts[i]; e < graph.starts[i + 1]; ++e) {
-                const std::size_t j = graph.neighbors[e];
-                covariance += weights[e] * glm::outerProduct(positions[j] - positions[i],
-                                                             graph.points[j] - graph.points[i]);
+    /// Of the edges around a point: sum w e' e^T, and sum w (e'^2 + e^2).
+    struct Edges {
+        glm::dmat3 covariance{0.0};
+        double squares = 0.0;
+        /// The energy of eq. 3 with a rotation: sum w (e' - R e)^2.
+        double energy(const glm::dmat3& R) const {
+            double along = 0.0;
+            for (int c = 0; c < 3; ++c) {
+                along += glm::dot(R[c], covariance[c]);
             }
-            rotations[i] = rotationOf(covariance, rotations[i]);
-        });
+            return squares - 2.0 * along;
+        }
+    };
+
+    Edges edgesOf(std::size_t i) const {
+        Edges edges;
+        for (std::size_t e = graph.starts[i]; e < graph.starts[i + 1]; ++e) {
+            const std::size_t j = graph.neighbors[e];
+            const glm::dvec3 moved = positions[j] - positions[i];
+            const glm::dvec3 rest = graph.points[j] - graph.points[i];
+            edges.covariance += glm::outerProduct(weights[e] * moved, rest);
+            edges.squares += weights[e] * (glm::dot(moved, moved) + glm::dot(rest, rest));
+        }
+        return edges;
     }
 
-    /// The positions that fit the rotations best (eqs. 8, 9). @return the longest way of a point
-    double globalStep() {
-        const auto size = static_cast<Eigen::Index>(freePoints.size());
-        if (size == 0) {
-            return 0.0;
+    double energy() const {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            sum += edgesOf(i).energy(rotations[i]);
         }
-        Eigen::Matrix<double, Eigen::Dynamic, 3> right(size, 3);
+        return sum;
+    }
+
+    /// The rotation of each free point that fits its edges best (eq. 5).
+    /// @return the energy with them
+    double localStep() {
+        energies.resize(positions.size());
+        forEach(positions.size(), [&](std::size_t i) {
+            const Edges edges = edgesOf(i);
+            if (unknown[i] != kFree) {
+                rotations[i] = rotationOf(edges.covariance, rotations[i]);
+            }
+            energies[i] = edges.energy(rotations[i]);
+        });
+        double sum = 0.0;
+        for (const double one : energies) {
+            sum += one;
+        }
+        return sum;
+    }
+
+    /// The positions of the free points that fit the rotations best (eqs. 8, 9).
+    Places globalStep() const {
+        const auto size = static_cast<Eigen::Index>(freePoints.size());
+        Places right(size, 3);
         forEach(freePoints.size(), [&](std::size_t f) {
             const std::size_t i = freePoints[f];
             glm::dvec3 sum(0.0);
@@ -225,16 +317,28 @@ struct RigidSolver::State {
                 right(static_cast<Eigen::Index>(f), c) = sum[c];
             }
         });
-        tbb::parallel_for(0, 3, [&](int c) { right.col(c) = factor.solve(right.col(c)).eval(); });
-        double longest = 0.0;
-        for (std::size_t f = 0; f < freePoints.size(); ++f) {
-            glm::dvec3& position = positions[freePoints[f]];
-            const auto row = right.row(static_cast<Eigen::Index>(f));
-            const glm::dvec3 next(row(0), row(1), row(2));
-            longest = std::max(longest, glm::length(next - position));
-            position = next;
+        if (size > 0) {
+            tbb::parallel_for(0, 3,
+                              [&](int c) { right.col(c) = factor.solve(right.col(c)).eval(); });
         }
-        return longest;
+        return right;
+    }
+
+    Places freePlaces() const {
+        Places places(static_cast<Eigen::Index>(freePoints.size()), 3);
+        for (std::size_t f = 0; f < freePoints.size(); ++f) {
+            for (int c = 0; c < 3; ++c) {
+                places(static_cast<Eigen::Index>(f), c) = positions[freePoints[f]][c];
+            }
+        }
+        return places;
+    }
+
+    void place(const Places& places) {
+        for (std::size_t f = 0; f < freePoints.size(); ++f) {
+            const auto row = places.row(static_cast<Eigen::Index>(f));
+            positions[freePoints[f]] = {row(0), row(1), row(2)};
+        }
     }
 };
 
@@ -254,7 +358,7 @@ void RigidSolver::start(std::span<const MovedNode> guess) {
 
 void RigidSolver::startFromHeld() {
     mState->spreadTurns();
-    static_cast<void>(mState->globalStep());
+    mState->place(mState->globalStep());
 }
 
 void RigidSolver::setTargets(std::span<const HeldPoint> targets) {
@@ -266,8 +370,36 @@ void RigidSolver::setTargets(std::span<const HeldPoint> targets) {
 }
 
 double RigidSolver::iterate() {
+    const Places before = mState->freePlaces();
     mState->localStep();
-    return mState->globalStep();
+    const Places after = mState->globalStep();
+    mState->place(after);
+    return farthestOf(after - before);
+}
+
+int RigidSolver::settle(double still, int mostIterations) {
+    State& s = *mState;
+    FixedPointHistory history;
+    Places given = s.freePlaces();
+    Places fallback = given; // what the last step alone would have made
+    double lowest = std::numeric_limits<double>::infinity();
+    for (int iteration = 1;; ++iteration) {
+        double energy = s.localStep();
+        if (energy > lowest) { // the guess went too far
+            given = fallback;
+            s.place(given);
+            energy = s.localStep();
+            history.clear();
+        }
+        lowest = energy;
+        fallback = s.globalStep();
+        if (iteration == mostIterations || farthestOf(fallback - given) <= still) {
+            s.place(fallback);
+            return iteration;
+        }
+        given = history.next(given, fallback);
+        s.place(given);
+    }
 }
 
 double RigidSolver::energy() const {

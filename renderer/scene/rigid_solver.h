@@ -39,6 +39,10 @@ public:
     /// A local and a global step.
     /// @return how far the point that moved most moved, mm
     double iterate();
+    /// Such steps, each from where those before seem to lead, until one moves no point farther.
+    /// @param still mm
+    /// @return how many
+    int settle(double still, int mostIterations);
     /// The sum over edges of w |p'_ij - R_i p_ij|^2, mm^2: no iteration makes it greater.
     [[nodiscard]] double energy() const;
 

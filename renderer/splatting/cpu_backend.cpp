@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,17 +18,29 @@ namespace {
 constexpr double kWattsPerUnit = 1e-6; ///< flux is kept in W/m^2 times mm^2
 
 /// Rectangles of edits that are told apart between two solves.
-constexpr std::size_t kMostChanges = 32;
+constexpr std::size_t kMostChanges = 48;
 
+/// A stroke touches several charts, far from each other on the map: when there are too many
+/// rectangles, one that grows least takes the new one in.
 void addChange(std::vector<TexelChange>& changes, const TexelChange& added) {
-    if (changes.size() >= kMostChanges) {
-        const auto other = std::ranges::find(changes, added.material, &TexelChange::material);
-        if (other != changes.end()) {
-            other->rect = unite(other->rect, added.rect);
-            return;
+    TexelChange* closest = nullptr;
+    std::size_t leastGrowth = std::numeric_limits<std::size_t>::max();
+    for (TexelChange& change : changes) {
+        if (change.material != added.material) {
+            continue;
+        }
+        const std::size_t growth = unite(change.rect, added.rect).texels() - change.rect.texels();
+        if (growth < leastGrowth) {
+            leastGrowth = growth;
+            closest = &change;
         }
     }
-    changes.push_back(added);
+    const bool isFull = changes.size() >= kMostChanges;
+    if (closest != nullptr && (isFull || leastGrowth <= added.rect.texels() / 2)) {
+        closest->rect = unite(closest->rect, added.rect);
+    } else {
+        changes.push_back(added);
+    }
 }
 
 /// Light views whose state is worth its memory: some 100 MB at 512 x 512 texels.
@@ -183,6 +196,7 @@ void CpuBackend::add(const SolveInput& input, const LightViews& lightViews, int 
         const auto scope = timer.measure("selection");
         if (!state.isCurrent.empty()) {
             std::swap(state.tree, state.before);
+            state.tree.takeWorkspace(state.before);
         }
         buildTree(light, input, state);
     }

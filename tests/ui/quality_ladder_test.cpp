@@ -56,6 +56,22 @@ TEST(QualityLadder, RestReachesTheLastRungAndEnds) {
     }
 }
 
+// A stroke has ended on a coarse picture: where the default comes within seconds, it comes at once,
+// not after others that would only delay it.
+TEST(QualityLadder, RestGoesStraightToTheDefaultWhereItIsNear) {
+    const auto isDefault = [](const QualityLadder& ladder, std::optional<int> rung) {
+        return rung && ladder.rungs()[static_cast<std::size_t>(*rung)].quality == Quality::Default;
+    };
+    QualityLadder ladder;
+    ladder.measuredFirst(7, kSize, 4500.0); // as when a model is opened
+    ladder.measured(0, kSize, 50.0);
+    ladder.measured(1, kSize, 60.0);
+    EXPECT_TRUE(isDefault(ladder, ladder.nextRung(1, kSize)));
+    QualityLadder slow;
+    slow.measured(7, kSize, 9000.0);
+    EXPECT_FALSE(isDefault(slow, slow.nextRung(1, kSize)));
+}
+
 TEST(QualityLadder, RungsGrowFiner) {
     const QualityLadder ladder;
     for (std::size_t i = 1; i < ladder.rungs().size(); ++i) {
