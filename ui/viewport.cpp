@@ -16,7 +16,7 @@ bool isPartial(const std::vector<std::uint8_t>& weights) {
 }
 
 /// A pause this long is rest: finer pictures begin.
-constexpr std::chrono::milliseconds kRest{80};
+constexpr std::chrono::milliseconds kRest{50};
 
 } // namespace
 
@@ -195,9 +195,13 @@ bool Viewport::update(Session& session) {
         if (next && mShown.rungIndex < mFinestRung) {
             ask(session, std::min(*next, mFinestRung), Purpose::Refinement);
         } else if (mRehearses && !mInFlight) {
-            const int rung = mLadder.movingRung(mRect.size);
-            if (mKnownSize != mRect.size || !mKnown[static_cast<std::size_t>(rung)]) {
-                ask(session, rung, Purpose::Rehearsal);
+            // What a moving hand needs, and then what it comes to rest on: the second picture of a
+            // size has the memory that following edits takes, and tells how long such pictures are.
+            for (const int rung : {mLadder.movingRung(mRect.size), mShown.rungIndex}) {
+                if (mKnownSize != mRect.size || !mKnown[static_cast<std::size_t>(rung)]) {
+                    ask(session, rung, Purpose::Rehearsal);
+                    break;
+                }
             }
         }
     }

@@ -113,6 +113,20 @@ bool GatherMaterials::dependsOn(int material, glm::vec2 uv, const subedit::Texel
            isNear(uv.y, own.height, rect.y, rect.height);
 }
 
+bool GatherMaterials::mayDependOn(int material, glm::vec2 low, glm::vec2 high,
+                                  const subedit::TexelRect& rect) const {
+    const subedit::MaterialMap& own = map(material);
+    // Around the map's border, and beyond it, is left to dependsOn().
+    const auto mayBeNear = [](float from, float to, int size, int begin, int end) {
+        const auto extent = static_cast<float>(size);
+        return from < 0.0f || to > 1.0f || begin < 2 || end > size - 2 ||
+               (to * extent >= static_cast<float>(begin) - 2.0f &&
+                from * extent <= static_cast<float>(end) + 2.0f);
+    };
+    return mayBeNear(low.x, high.x, own.width, rect.x, rect.right()) &&
+           mayBeNear(low.y, high.y, own.height, rect.y, rect.bottom());
+}
+
 void GatherMaterials::encode(int material, glm::vec2 uv, std::uint16_t* codes) const {
     constexpr std::size_t kMostKnots = subedit::kMaxSegments + 1;
     const subedit::MaterialMap& own = map(material);

@@ -1,6 +1,7 @@
 #include "renderer/gather/tile.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace celadon {
 
@@ -72,12 +73,27 @@ bool TileLoader::locate(const ViewTexels& level, glm::ivec2 corner) {
 
 bool TileLoader::dependsOn(const ViewTexels& level, glm::ivec2 corner,
                            std::span<const TexelChange> changes) const {
-    for (int lane = 0; lane < gather::kTilePixels && !changes.empty(); ++lane) {
-        if (tile.rangeMm[lane] == 0.0f) {
-            continue;
+    if (changes.empty()) {
+        return false;
+    }
+    glm::vec2 low(std::numeric_limits<float>::infinity());
+    glm::vec2 high = -low;
+    for (int lane = 0; lane < gather::kTilePixels; ++lane) {
+        if (tile.rangeMm[lane] > 0.0f) {
+            const float* surface = level.surfaces + indexOf(level, corner, lane);
+            low = glm::min(low, glm::vec2(surface[0], surface[1]));
+            high = glm::max(high, glm::vec2(surface[0], surface[1]));
         }
-        const float* surface = level.surfaces + indexOf(level, corner, lane);
-        for (const TexelChange& change : changes) {
+    }
+    for (const TexelChange& change : changes) {
+        if (!mMaterials.mayDependOn(change.material, low, high, change.rect)) {
+            continue; // nearly all of them
+        }
+        for (int lane = 0; lane < gather::kTilePixels; ++lane) {
+            if (tile.rangeMm[lane] == 0.0f) {
+                continue;
+            }
+            const float* surface = level.surfaces + indexOf(level, corner, lane);
             if (static_cast<int>(surface[2]) == change.material &&
                 mMaterials.dependsOn(change.material, {surface[0], surface[1]}, change.rect)) {
                 return true;

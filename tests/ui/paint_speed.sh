@@ -27,6 +27,7 @@ await() { # await SECONDS FIELD TEST VALUE
 "$program" edit --size 1280x720 --quality default --state "$state" 2>"$folder/stderr" &
 editor=$!
 await 60 rung -ge 7
+sleep 4 # the artist looks at it; what following pictures need is made meanwhile
 
 # Strokes to and fro across the vase, some 60 events a second.
 xdotool mousemove 400 300 mousedown 1
