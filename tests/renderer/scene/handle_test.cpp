@@ -14,6 +14,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <utility>
 
 namespace celadon {
 namespace {
@@ -71,6 +72,14 @@ Mesh unwelded(const Mesh& mesh) {
     return result;
 }
 
+SurfaceGraph graphOf(const Mesh& mesh) {
+    std::vector<Triangle> triangles;
+    for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
+        triangles.push_back({mesh.indices[t], mesh.indices[t + 1], mesh.indices[t + 2]});
+    }
+    return makeGraph({mesh.positions.begin(), mesh.positions.end()}, std::move(triangles));
+}
+
 glm::dmat3 turnAbout(const glm::dvec3& axis, double degrees) {
     return glm::mat3_cast(glm::angleAxis(glm::radians(degrees), glm::normalize(axis)));
 }
@@ -90,12 +99,8 @@ std::vector<Mapped> moved(const NodePose& pose, std::size_t mesh = 0) {
 
 TEST(SurfaceGraph, ClustersCoverTheSurfaceAndKeepItConnected) {
     const Mesh mesh = tube(40, 100);
-    std::vector<glm::dvec3> points(mesh.positions.begin(), mesh.positions.end());
-    std::vector<Triangle> triangles;
-    for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
-        triangles.push_back({mesh.indices[t], mesh.indices[t + 1], mesh.indices[t + 2]});
-    }
-    const SurfaceGraph graph = makeGraph(points, triangles);
+    const SurfaceGraph graph = graphOf(mesh);
+    const std::vector<glm::dvec3>& points = graph.points;
     const Clusters clusters = clusterSurface(graph, 200);
     EXPECT_GT(clusters.chosen.size(), 130u);
     EXPECT_LT(clusters.chosen.size(), 300u);
@@ -131,12 +136,8 @@ TEST(RigidSolver, RigidMovesAreKeptExactly) {
 
 TEST(RigidSolver, NoIterationRaisesTheEnergyAndHandlesStayWhereTheyAreTold) {
     const Mesh mesh = tube(16, 40);
-    std::vector<glm::dvec3> points(mesh.positions.begin(), mesh.positions.end());
-    std::vector<Triangle> triangles;
-    for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
-        triangles.push_back({mesh.indices[t], mesh.indices[t + 1], mesh.indices[t + 2]});
-    }
-    const SurfaceGraph graph = makeGraph(points, triangles);
+    const SurfaceGraph graph = graphOf(mesh);
+    const std::vector<glm::dvec3>& points = graph.points;
     std::vector<std::uint32_t> held;
     std::vector<HeldPoint> targets;
     const glm::dmat3 turn = turnAbout({0, 0, 1}, 90.0);
@@ -276,12 +277,8 @@ TEST(HandleSolver, LargeModelsFollowAProxySmoothly) {
 // Guessing ahead finds what many plain steps find, in fewer.
 TEST(RigidSolver, SettlesWherePlainStepsDo) {
     const Mesh mesh = tube(16, 40);
-    std::vector<glm::dvec3> points(mesh.positions.begin(), mesh.positions.end());
-    std::vector<Triangle> triangles;
-    for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {
-        triangles.push_back({mesh.indices[t], mesh.indices[t + 1], mesh.indices[t + 2]});
-    }
-    const SurfaceGraph graph = makeGraph(points, triangles);
+    const SurfaceGraph graph = graphOf(mesh);
+    const std::vector<glm::dvec3>& points = graph.points;
     std::vector<std::uint32_t> held;
     std::vector<HeldPoint> targets;
     const glm::dmat3 turn = turnAbout({0, 0, 1}, 50.0);
