@@ -10,6 +10,9 @@ namespace celadon::gather {
 
 inline constexpr int kTileSide = 8;
 inline constexpr int kTilePixels = 64;
+/// A ring fades in and out about its radius between these, in units of it.
+inline constexpr float kRingLow = 0.8f;
+inline constexpr float kRingHigh = 1.2f;
 inline constexpr int kKnotCodes = 4; ///< codes of a knot: R, G, B, one unused
 
 /// Profiles as 16-bit codes: ln P = offset + step * code, so that

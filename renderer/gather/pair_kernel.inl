@@ -15,8 +15,6 @@
 namespace celadon::gather {
 namespace {
 
-constexpr float kRingLow = 0.8f; ///< cross-fade of a ring about its radius
-constexpr float kRingHigh = 1.2f;
 
 /// Below these a disc is small, and one distance with its second order does.
 constexpr float kNarrowAngle = 0.1f;

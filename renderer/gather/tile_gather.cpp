@@ -35,7 +35,7 @@ struct Job {
 constexpr int blockSide(int level) {
     return std::max(4 >> level, 1);
 }
-constexpr std::size_t kMostTiles = 16;
+constexpr std::size_t kMostTiles = std::size_t{blockSide(0)} * blockSide(0);
 
 class Worker {
 public:
@@ -51,18 +51,17 @@ public:
     /// Brings a block of tiles up to date. Neighbors count much the same samples: the tree is
     /// walked once for all of them.
     void gather(glm::ivec2 block) {
-        PointBounds all;
+        mBlock = {};
         std::array<PointBounds, kMostTiles> bounds;
         const int side = blockSide(mJob.level);
         const auto count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
         for (std::size_t i = 0; i < count; ++i) {
             if (mLoader.locate(mJob.view, cornerOf(block, i))) {
                 bounds[i] = mLoader.bounds;
-                all.add(bounds[i].low);
-                all.add(bounds[i].high);
+                mBlock.add(bounds[i].low);
+                mBlock.add(bounds[i].high);
             }
         }
-        mBlock = all;
         mIsListed = mIsChangeListed = false;
         for (std::size_t i = 0; i < count; ++i) {
             if (bounds[i].low.x <= bounds[i].high.x) {

@@ -11,9 +11,6 @@
 namespace celadon {
 
 inline constexpr float kDropped = 0.999f; ///< Rbar from which a level is left out
-/// Rings fade between these, in units of their radius.
-inline constexpr float kRingLow = 0.8f;
-inline constexpr float kRingHigh = 1.2f;
 
 /// A sample that may count in some tile of a block, with what decides about each of them.
 struct Listed {
@@ -86,8 +83,9 @@ private:
         const glm::vec2 squared = tile.squaredDistances(one.position);
         const auto square = [](float x) { return x * x; };
         if (squared.x >= square(mRangeMm) || squared.y < square(one.ball) ||
-            squared.y <= square(kRingLow * one.candidate.low) ||
-            (one.candidate.high > 0.0f && squared.x >= square(kRingHigh * one.candidate.high))) {
+            squared.y <= square(gather::kRingLow * one.candidate.low) ||
+            (one.candidate.high > 0.0f &&
+             squared.x >= square(gather::kRingHigh * one.candidate.high))) {
             return false;
         }
         if (one.parentBall <= 0.0f) {
@@ -118,11 +116,11 @@ private:
         }
         const float depth = depthOf(node.position);
         // Rings of the whole subtree lie between those of its nearest and its farthest depth.
-        if (kRingLow * ringRadius(mLevel, depth - node.extent) > farthest + node.extent) {
+        if (gather::kRingLow * ringRadius(mLevel, depth - node.extent) > farthest + node.extent) {
             return;
         }
         const float outermost = nextRing(depth + node.extent);
-        if (outermost > 0.0f && kRingHigh * outermost < nearest - node.extent) {
+        if (outermost > 0.0f && gather::kRingHigh * outermost < nearest - node.extent) {
             return;
         }
         // Of changes: what did not change itself counts where it stands in for a parent that did.
@@ -136,8 +134,8 @@ private:
                                                                            : nullptr;
             const float low = ringRadius(mLevel, depth);
             const float high = nextRing(depth);
-            if (low < mRangeMm && farthest > kRingLow * low &&
-                (high == 0.0f || nearest < kRingHigh * high) &&
+            if (low < mRangeMm && farthest > gather::kRingLow * low &&
+                (high == 0.0f || nearest < gather::kRingHigh * high) &&
                 (isChanged || (usedParent != nullptr && parentDistances.y >= parent->ball))) {
                 mFound->push_back(
                     {{&nodes.samples[index], usedParent, low, high},

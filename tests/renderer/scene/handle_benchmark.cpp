@@ -1,38 +1,25 @@
 #include "renderer/scene/handle_solver.h"
+#include "tests/renderer/scene/tube_mesh.h"
 
 #include <benchmark/benchmark.h>
 #include <glm/gtc/quaternion.hpp>
 
 #include <array>
 #include <cmath>
-#include <numbers>
 
 // What it costs to drag a handle of a bent tube, by its vertices:
 //     build/release/tests/renderer/scene/handle_benchmark
 namespace celadon {
 namespace {
 
-/// Along y from 0 to 100 mm, radius 10 mm with waves, so that clusters differ.
-World tube(int around, int along) {
-    Mesh mesh;
-    for (int j = 0; j <= along; ++j) {
-        for (int i = 0; i < around; ++i) {
-            const double angle = 2.0 * std::numbers::pi * i / around;
-            const double y = 100.0 * j / along;
-            const double radius = 10.0 + 2.0 * std::sin(0.2 * y) * std::cos(3.0 * angle);
-            mesh.positions.emplace_back(radius * std::cos(angle), y, radius * std::sin(angle));
-            mesh.normals.emplace_back(std::cos(angle), 0.0, std::sin(angle));
-            mesh.uvs.emplace_back(0.0f, 0.0f);
-        }
-    }
-    const auto at = [&](int i, int j) {
-        return static_cast<std::uint32_t>(j * around + i % around);
-    };
-    for (int j = 0; j < along; ++j) {
-        for (int i = 0; i < around; ++i) {
-            mesh.indices.insert(mesh.indices.end(), {at(i, j), at(i, j + 1), at(i + 1, j),
-                                                     at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)});
-        }
+/// The tests' tube with waves, so that clusters differ.
+World wavyTube(int around, int along) {
+    Mesh mesh = tube(around, along);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        glm::vec3& p = mesh.positions[i];
+        const double angle = std::atan2(p.z, p.x);
+        p +=
+            static_cast<float>(2.0 * std::sin(0.2 * p.y) * std::cos(3.0 * angle)) * mesh.normals[i];
     }
     World world;
     world.meshes.push_back({std::move(mesh), 0});
@@ -43,7 +30,7 @@ World tube(int around, int along) {
 
 void drag(benchmark::State& state) {
     const auto around = static_cast<int>(std::sqrt(static_cast<double>(state.range(0)) / 2.0));
-    const World world = tube(around, 2 * around);
+    const World world = wavyTube(around, 2 * around);
     const std::vector<PlacedHandle> rest{{{0, 0, 0}, 14, {0, 0, 0}, glm::dmat3(1.0)},
                                          {{0, 100, 0}, 14, {0, 100, 0}, glm::dmat3(1.0)}};
     HandleSolver solver(world, rest);

@@ -3,6 +3,7 @@
 #include "renderer/scene/rigid_solver.h"
 #include "renderer/scene/surface_graph.h"
 #include "subedit/errors.h"
+#include "tests/renderer/scene/tube_mesh.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>
@@ -18,34 +19,6 @@
 
 namespace celadon {
 namespace {
-
-/// A tube along y from 0 to 100, radius 10, open at both ends.
-Mesh tube(int around, int along, const glm::vec3& offset = glm::vec3(0.0f)) {
-    Mesh mesh;
-    for (int j = 0; j <= along; ++j) {
-        for (int i = 0; i < around; ++i) {
-            const float angle = 2.0f * std::numbers::pi_v<float> * static_cast<float>(i) /
-                                static_cast<float>(around);
-            const glm::vec3 n(std::cos(angle), 0.0f, std::sin(angle));
-            mesh.positions.push_back(
-                offset + 10.0f * n +
-                glm::vec3(0, 100.0f * static_cast<float>(j) / static_cast<float>(along), 0));
-            mesh.normals.push_back(n);
-            mesh.uvs.emplace_back(static_cast<float>(i) / static_cast<float>(around),
-                                  static_cast<float>(j) / static_cast<float>(along));
-        }
-    }
-    const auto at = [&](int i, int j) {
-        return static_cast<std::uint32_t>(j * around + i % around);
-    };
-    for (int j = 0; j < along; ++j) {
-        for (int i = 0; i < around; ++i) {
-            mesh.indices.insert(mesh.indices.end(), {at(i, j), at(i, j + 1), at(i + 1, j),
-                                                     at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)});
-        }
-    }
-    return mesh;
-}
 
 World worldOf(std::vector<Mesh> meshes) {
     World world;
@@ -97,6 +70,27 @@ std::vector<Mapped> moved(const NodePose& pose, std::size_t mesh = 0) {
     return result;
 }
 
+struct Held {
+    std::vector<std::uint32_t> points;
+    std::vector<HeldPoint> targets;
+};
+
+/// The tube's ends: the lower one stays, the upper one is turned about its middle, which goes
+/// there.
+Held bentTube(const std::vector<glm::dvec3>& points, const glm::dmat3& turn, const glm::dvec3& to) {
+    Held held;
+    for (std::uint32_t i = 0; i < points.size(); ++i) {
+        if (points[i].y < 1.0) {
+            held.points.push_back(i);
+            held.targets.push_back({points[i], glm::dmat3(1.0)});
+        } else if (points[i].y > 99.0) {
+            held.points.push_back(i);
+            held.targets.push_back({turn * (points[i] - glm::dvec3(0, 100, 0)) + to, turn});
+        }
+    }
+    return held;
+}
+
 TEST(SurfaceGraph, ClustersCoverTheSurfaceAndKeepItConnected) {
     const Mesh mesh = tube(40, 100);
     const SurfaceGraph graph = graphOf(mesh);
@@ -138,19 +132,7 @@ TEST(RigidSolver, NoIterationRaisesTheEnergyAndHandlesStayWhereTheyAreTold) {
     const Mesh mesh = tube(16, 40);
     const SurfaceGraph graph = graphOf(mesh);
     const std::vector<glm::dvec3>& points = graph.points;
-    std::vector<std::uint32_t> held;
-    std::vector<HeldPoint> targets;
-    const glm::dmat3 turn = turnAbout({0, 0, 1}, 90.0);
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-        if (points[i].y < 1.0) {
-            held.push_back(i);
-            targets.push_back({points[i], glm::dmat3(1.0)});
-        } else if (points[i].y > 99.0) {
-            held.push_back(i);
-            targets.push_back(
-                {turn * (points[i] - glm::dvec3(0, 100, 0)) + glm::dvec3(-60, 60, 0), turn});
-        }
-    }
+    const auto [held, targets] = bentTube(points, turnAbout({0, 0, 1}, 90.0), {-60, 60, 0});
     RigidSolver solver(graph, held);
     solver.setTargets(targets);
     solver.iterate();
@@ -279,19 +261,7 @@ TEST(RigidSolver, SettlesWherePlainStepsDo) {
     const Mesh mesh = tube(16, 40);
     const SurfaceGraph graph = graphOf(mesh);
     const std::vector<glm::dvec3>& points = graph.points;
-    std::vector<std::uint32_t> held;
-    std::vector<HeldPoint> targets;
-    const glm::dmat3 turn = turnAbout({0, 0, 1}, 50.0);
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-        if (points[i].y < 1.0 || points[i].y > 99.0) {
-            const bool isTop = points[i].y > 99.0;
-            held.push_back(i);
-            targets.push_back(isTop ? HeldPoint{turn * (points[i] - glm::dvec3(0, 100, 0)) +
-                                                    glm::dvec3(-30, 80, 0),
-                                                turn}
-                                    : HeldPoint{points[i], glm::dmat3(1.0)});
-        }
-    }
+    const auto [held, targets] = bentTube(points, turnAbout({0, 0, 1}, 50.0), {-30, 80, 0});
     RigidSolver plain(graph, held);
     plain.setTargets(targets);
     plain.startFromHeld();
