@@ -138,7 +138,7 @@ void edit(EditOptions o) {
         options.model = request.model;
         options.material =
             request.material.empty() ? std::nullopt : std::optional(request.material);
-        return readWorld(options, 0);
+        return readWorld(options, 0, request.readInstead);
     };
     e.services.describeMaterial = [](const subedit::MaterialMap& map,
                                      const std::string& reference) {

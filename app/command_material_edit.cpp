@@ -2,9 +2,9 @@
 
 #include "app/log.h"
 #include "app/option_takers.h"
+#include "app/profile/profile_output.h"
 #include "app/progress.h"
 #include "app/render_scene.h"
-#include "renderer/output/atomic_file.h"
 #include "renderer/scene/surface_atlas_of_world.h"
 #include "subedit/document/document.h"
 #include "subedit/document/stroke_file.h"
@@ -127,15 +127,12 @@ void runEdit(const EditOptions& options) {
         throw UsageError("material edit", "--strokes is missing",
                          "name the file of commands to replay");
     }
-    if (options.output.empty()) {
-        throw UsageError("material edit", "-o is missing", "name the file to write");
-    }
     if (options.model.empty() && (options.millimetersPerUnit || options.diameterMm)) {
         throw UsageError("material edit",
                          "--scale and --diameter are of a model, and none is given",
                          "name it with --model");
     }
-    checkWritable(options.output);
+    checkMaterialOutput("material edit", options.output);
     const StrokeFile strokes = readStrokeFile(options.strokes, lookUpProfile);
     const MaterialPointer material =
         sized(readMaterialArgument(options.material), options, strokes);

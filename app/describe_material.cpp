@@ -47,20 +47,9 @@ MaterialSummary summarize(const MaterialMap& map) {
     for (std::size_t i = 0; i < albedo.size(); ++i) {
         summary.albedo[i % 3].add(albedo[i]);
     }
-    for (int y = 0; y < map.height; ++y) {
-        for (int x = 0; x < map.width; ++x) {
-            const ProfileView profile = profileAt(map, x, y);
-            const double inside = static_cast<double>(map.maxRadiusMm) * (1.0 - 1.0 / map.segments);
-            const glm::dvec3 total = radialEnergy(profile, static_cast<double>(map.maxRadiusMm));
-            const glm::dvec3 within = radialEnergy(profile, inside);
-            for (int channel = 0; channel < 3; ++channel) {
-                if (total[channel] > static_cast<double>(kBlackAlbedo) &&
-                    map.segments >= kFewSegments) {
-                    summary.cut = std::max(
-                        summary.cut, static_cast<float>(1.0 - within[channel] / total[channel]));
-                }
-            }
-        }
+    if (map.segments >= kFewSegments) {
+        const std::vector<float> last = lastSegmentMap(map);
+        summary.cut = *std::max_element(last.begin(), last.end());
     }
     for (const float radius : effectiveRadiusMap(map)) {
         summary.radius.add(radius);

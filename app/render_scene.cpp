@@ -20,7 +20,11 @@ namespace {
 constexpr std::string_view kBuiltinPrefix = "builtin:";
 constexpr int kMediumSegments = 64;
 
-MaterialPointer readMaterialFile(const std::filesystem::path& file) {
+MaterialPointer readMaterialFile(const std::filesystem::path& named,
+                                 const ReadInstead& readInstead) {
+    std::error_code unknown;
+    const auto other = readInstead.find(std::filesystem::weakly_canonical(named, unknown));
+    const std::filesystem::path& file = other == readInstead.end() ? named : other->second;
     std::vector<std::string> warnings;
     auto map = std::make_shared<subedit::MaterialMap>(subedit::readMaterial(file, &warnings));
     for (const std::string& warning : warnings) {
@@ -67,7 +71,7 @@ Scene readModel(const std::string& model) {
 }
 
 MaterialPointer readMaterialArgument(const std::string& nameOrPath) {
-    return readMaterialFile(subedit::findMaterial(nameOrPath));
+    return readMaterialFile(subedit::findMaterial(nameOrPath), {});
 }
 
 MaterialPointer bakeMedium(const subedit::Medium& medium) {
@@ -80,7 +84,7 @@ MaterialPointer bakeMedium(const subedit::Medium& medium) {
     return baked;
 }
 
-World readWorld(const RenderOptions& options, int frame) {
+World readWorld(const RenderOptions& options, int frame, const ReadInstead& readInstead) {
     const std::string model = options.sequence
                                   ? FramePattern("--sequence", *options.sequence).name(frame)
                                   : options.model;
@@ -91,14 +95,15 @@ World readWorld(const RenderOptions& options, int frame) {
     if (const std::optional<subedit::Medium> medium = mediumOf(options)) {
         override = bakeMedium(*medium);
     } else if (options.material) {
-        override = readMaterialArgument(materialOfFrame(options, frame));
+        override =
+            readMaterialFile(subedit::findMaterial(materialOfFrame(options, frame)), readInstead);
     } else {
         std::map<std::filesystem::path, MaterialPointer> read; // one map per file
         for (std::size_t i = 0; i < named.size(); ++i) {
             if (const auto& file = scene.materials[i].subedit) {
                 MaterialPointer& material = read[*file];
                 if (!material) {
-                    material = readMaterialFile(*file);
+                    material = readMaterialFile(*file, readInstead);
                 }
                 named[i] = material;
             }

@@ -5,6 +5,8 @@
 #include "renderer/scene/world.h"
 #include "subedit/map/material_fade.h"
 
+#include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,8 +25,12 @@ namespace celadon::app {
 /// the half space (subedit/map/medium_bake.h).
 [[nodiscard]] MaterialPointer bakeMedium(const subedit::Medium& medium);
 
+/// Material files, by canonical path, and the files that are read in their place.
+using ReadInstead = std::map<std::filesystem::path, std::filesystem::path>;
+
 /// Everything that frame `frame` shows: patterns in model and material are filled in.
-[[nodiscard]] World readWorld(const RenderOptions& options, int frame);
+[[nodiscard]] World readWorld(const RenderOptions& options, int frame,
+                              const ReadInstead& readInstead = {});
 
 /// A --material that is another in each frame: a numbered sequence of files, or a fade.
 class MaterialOverTime {

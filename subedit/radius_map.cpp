@@ -104,4 +104,18 @@ std::vector<float> albedoMap(const MaterialMap& map) {
     return albedo;
 }
 
+std::vector<float> lastSegmentMap(const MaterialMap& map) {
+    std::vector<float> part(texelsOf(map));
+    const float blackTotal =
+        TexelEnergy::blackTotal(map.maxRadiusMm / static_cast<float>(map.segments));
+    forEachTexel(map, [&](std::size_t i, const float*, const TexelEnergy& energy) {
+        for (int channel = 0; channel < 3; ++channel) {
+            if (energy.total(channel) > blackTotal) {
+                part[i] = std::max(part[i], energy.last(channel) / energy.total(channel));
+            }
+        }
+    });
+    return part;
+}
+
 } // namespace celadon::subedit

@@ -37,4 +37,8 @@ void updateEffectiveRadii(const MaterialMap& map, const TexelRect& rect, double 
 /// Diffuse albedo of every texel, [height][width][3].
 [[nodiscard]] std::vector<float> albedoMap(const MaterialMap& map);
 
+/// What part of each texel's energy lies in its last segment, the largest of the channels; 0 where
+/// it is black. Much there says that the profile was cut at r_s. [height][width]
+[[nodiscard]] std::vector<float> lastSegmentMap(const MaterialMap& map);
+
 } // namespace celadon::subedit

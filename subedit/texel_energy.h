@@ -32,6 +32,10 @@ public:
         return mEnergy[static_cast<std::size_t>(channel)];
     }
 
+    [[nodiscard]] float last(int channel) const { ///< of the last segment
+        return mEnergy[static_cast<std::size_t>((mSegments - 1) * 3 + channel)];
+    }
+
     /// Diffuse albedo for knots h mm apart.
     [[nodiscard]] float albedo(int channel, float h) const {
         return 2.0f * std::numbers::pi_v<float> * h * h * total(channel);

@@ -109,7 +109,7 @@ Editor::Editor(const EditorOptions& options)
       mTools(mSession),
       mOpen(mSession),
       mJournal(stateFolder()),
-      mFiles(mSession, mOpen, mPreferences, mJournal, mScript.isUnattended()),
+      mFiles(mSession, mOpen, mPreferences, mScript.isUnattended()),
       mJobs(mWindow.jobsWindow(), [] { Window::wake(); }),
       mThumbnails(mJobs, cacheFolder() / "thumbnails"),
       mTruth(mJobs) {
@@ -132,6 +132,11 @@ void Editor::keepJournal() {
             }
         }
     });
+    mSession.beforeWriting = [this](const std::filesystem::path& file) {
+        if (const auto problem = mJournal.keep(file)) {
+            mSession.notify(Notice::Kind::Warning, *problem);
+        }
+    };
 }
 
 /// What concerns the window only, so that replays can show every panel.
@@ -330,7 +335,8 @@ void Editor::poll() {
                             "A file changed on disk; it is not read again, since the material has "
                             "changes that are not saved");
         } else {
-            mOpen.start(mSession.opened());
+            // As the files are now, even if a recovery opened them as they had been.
+            mOpen.start({mSession.opened().model, mSession.opened().material});
         }
         mFramesToDraw = kSettlingFrames;
     }
@@ -529,6 +535,7 @@ nlohmann::json Editor::state() const {
             {"pictureMs", std::round(mViewport.shown().timeMs)},
             {"modified", mSession.isModified()},
             {"asking", mFiles.isAsking()},
+            {"problem", mFiles.problem()},
             {"undo", mSession.undoTitle().has_value()},
             {"playing", mSession.motion.isPlaying},
             {"seconds", mSession.motion.now.seconds},

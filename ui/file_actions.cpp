@@ -25,12 +25,8 @@ std::string lowered(std::string text) {
 } // namespace
 
 FileActions::FileActions(Session& session, BackgroundOpen& open, Preferences& preferences,
-                         Journal& journal, bool isUnattended)
-    : mSession(session),
-      mOpen(open),
-      mPreferences(preferences),
-      mJournal(journal),
-      mIsUnattended(isUnattended) {}
+                         bool isUnattended)
+    : mSession(session), mOpen(open), mPreferences(preferences), mIsUnattended(isUnattended) {}
 
 void FileActions::open(const OpenRequest& request) {
     const std::function<void()> act = [this, request] { mOpen.start(request); };
@@ -99,9 +95,6 @@ void FileActions::saveDeformers(const std::function<void()>& then) {
 }
 
 bool FileActions::saveTo(const std::filesystem::path& file) {
-    if (const auto problem = mJournal.keep(file)) {
-        mSession.notify(Notice::Kind::Warning, *problem);
-    }
     if (!mSession.perform({"file.save", {{"file", file.string()}}})) {
         return false;
     }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "ui/background_open.h"
-#include "ui/journal.h"
 #include "ui/panels/file_dialog.h"
 #include "ui/panels/question.h"
 #include "ui/preferences.h"
@@ -19,7 +18,7 @@ namespace celadon::ui {
 class FileActions {
 public:
     /// @param isUnattended nobody is there to answer questions: nothing is asked or remembered
-    FileActions(Session& session, BackgroundOpen& open, Preferences& preferences, Journal& journal,
+    FileActions(Session& session, BackgroundOpen& open, Preferences& preferences,
                 bool isUnattended);
 
     void open(const OpenRequest& request);
@@ -55,6 +54,8 @@ public:
     void savePreferences();
 
     [[nodiscard]] bool isAsking() const { return mFiles.isOpen() || mQuestion.isOpen(); }
+    /// Why the file dialog asks once more; empty: it does not.
+    [[nodiscard]] const std::string& problem() const { return mFiles.problem(); }
     void draw(float scale);
 
 private:
@@ -68,7 +69,6 @@ private:
     Session& mSession;
     BackgroundOpen& mOpen;
     Preferences& mPreferences;
-    Journal& mJournal;
     bool mIsUnattended;
     FileDialog mFiles;
     Question mQuestion;

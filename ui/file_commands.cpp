@@ -31,6 +31,14 @@ DeformerStack inUnits(DeformerStack stack, double factor) {
     return stack;
 }
 
+void writeMaterialFile(const Session& session, const subedit::MaterialMap& material,
+                       const std::filesystem::path& file) {
+    if (session.beforeWriting) {
+        session.beforeWriting(file);
+    }
+    subedit::writeMaterial(material, file);
+}
+
 /// FILE.gltf, FILE.bin, and a material file for each material that is worn.
 void exportGltf(Session& session, const std::filesystem::path& file) {
     if (!session.hasWorld() || !session.services().describeMaterial) {
@@ -48,7 +56,7 @@ void exportGltf(Session& session, const std::filesystem::path& file) {
         }
         const std::string name =
             file.stem().string() + (i > 0 ? fmt::format("_{}", i + 1) : "") + ".subedit.exr";
-        subedit::writeMaterial(document->material(), file.parent_path() / name);
+        writeMaterialFile(session, document->material(), file.parent_path() / name);
         materials.push_back(session.services().describeMaterial(document->material(), name));
     }
     nlohmann::json extras = nlohmann::json::object();
@@ -86,7 +94,7 @@ void addFileCommands(Session& session) {
                          throw UsageError(fmt::format("'{}'", file.string()),
                                           "is no name of a material", "let it end in .subedit.exr");
                      }
-                     subedit::writeMaterial(document->material(), file);
+                     writeMaterialFile(session, document->material(), file);
                      session.materialFile = file;
                      session.markSaved();
                      session.notify(Notice::Kind::Info, fmt::format("Saved '{}'", file.string()));

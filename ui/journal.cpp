@@ -15,6 +15,7 @@ namespace celadon::ui {
 namespace {
 
 constexpr const char* kHeader = "journal";
+constexpr const char* kKept = "journal.kept"; ///< a file that was replaced, and where it is now
 constexpr const char* kSuffix = ".journal";
 constexpr const char* kKeptSuffix = ".kept.exr";
 
@@ -23,11 +24,12 @@ void removeFile(const std::filesystem::path& file) {
     std::filesystem::remove(file, ignored);
 }
 
-/// What Journal::keep() put aside, not a file of the user's.
-void removeKept(const std::filesystem::path& folder, const std::string& material) {
-    if (material.ends_with(kKeptSuffix) &&
-        std::filesystem::path(material).parent_path() == folder) {
-        removeFile(material);
+/// What Journal::keep() put aside, and no file of the user's, whatever a journal says.
+void removeKept(const std::filesystem::path& folder, const OpenRequest& opened) {
+    for (const auto& [file, kept] : opened.readInstead) {
+        if (kept.parent_path() == folder && kept.string().ends_with(kKeptSuffix)) {
+            removeFile(kept);
+        }
     }
 }
 
@@ -76,7 +78,10 @@ std::optional<std::string> Journal::add(const Command& command) {
         std::filesystem::create_directories(mFolder, failed);
         mFile = mFolder / fmt::format("{}{}", ::getpid(), kSuffix);
         mStream.open(mFile, std::ios::trunc);
-        writeHeader();
+        write({kHeader, {{"model", mOpened.model}, {"material", mOpened.material}}});
+        for (const auto& [file, kept] : mOpened.readInstead) {
+            write({kKept, {{"file", file.string()}, {"as", kept.string()}}});
+        }
     }
     write(command);
     if (!mStream) {
@@ -91,31 +96,29 @@ void Journal::write(const Command& command) {
     mStream << formatCommand(command) << '\n' << std::flush;
 }
 
-void Journal::writeHeader() {
-    write({kHeader, {{"model", mOpened.model}, {"material", mOpened.material}}});
-}
-
 std::optional<std::string> Journal::keep(const std::filesystem::path& file) {
     std::error_code failed;
-    if (!mStream.is_open() || !std::filesystem::equivalent(file, mOpened.material, failed)) {
+    const std::filesystem::path path = std::filesystem::weakly_canonical(file, failed);
+    if (!mStream.is_open() || mHasFailed || !std::filesystem::exists(path, failed) ||
+        mOpened.readInstead.contains(path)) {
         return std::nullopt;
     }
     std::filesystem::path kept;
     for (int number = 1; kept.empty() || std::filesystem::exists(kept, failed); ++number) {
         kept = mFolder / fmt::format("{}-{}{}", ::getpid(), number, kKeptSuffix);
     }
-    // Saving puts another file in this one's place: a second name for it costs nothing.
-    std::filesystem::create_hard_link(file, kept, failed);
+    // A writer puts another file in this one's place: a second name for it costs nothing.
+    std::filesystem::create_hard_link(path, kept, failed);
     if (failed) {
-        std::filesystem::copy_file(file, kept, failed);
+        std::filesystem::copy_file(path, kept, failed);
     }
     if (failed) {
         return fmt::format("'{}' cannot be kept in '{}' ({}): after a crash, what was done before "
                            "this save would be done twice",
-                           file.string(), mFolder.string(), failed.message());
+                           path.string(), kept.string(), failed.message());
     }
-    mOpened.material = kept.string();
-    writeHeader(); // the last one counts
+    mOpened.readInstead[path] = kept;
+    write({kKept, {{"file", path.string()}, {"as", kept.string()}}});
     return std::nullopt;
 }
 
@@ -126,13 +129,13 @@ void Journal::finish() {
         removeFile(mFile);
         mFile.clear();
     }
-    removeKept(mFolder, mOpened.material);
+    removeKept(mFolder, mOpened);
     mOpened = {};
 }
 
 void discard(const Recovery& recovery) {
     removeFile(recovery.file);
-    removeKept(recovery.file.parent_path(), recovery.opened.material);
+    removeKept(recovery.file.parent_path(), recovery.opened);
 }
 
 std::optional<Recovery> findRecovery(const std::filesystem::path& folder) {
@@ -150,13 +153,16 @@ std::optional<Recovery> findRecovery(const std::filesystem::path& folder) {
             if (commands.empty() || commands.front().name != kHeader) {
                 continue;
             }
-            OpenRequest opened;
+            const Command header = commands.front();
+            const Arguments arguments(header);
+            commands.erase(commands.begin());
+            OpenRequest opened{arguments.text("model"), arguments.text("material"), {}};
             std::erase_if(commands, [&opened](const Command& command) {
-                if (command.name != kHeader) {
+                if (command.name != kKept) {
                     return false;
                 }
-                const Arguments header(command);
-                opened = {header.text("model"), header.text("material")};
+                const Arguments kept(command);
+                opened.readInstead[kept.text("file")] = kept.text("as");
                 return true;
             });
             const auto time = entry.last_write_time(failed);

@@ -13,8 +13,9 @@
 /// crash a replay brings it back, but for a stroke that was under way. One file a session, gone
 /// when it ends well.
 ///
-/// A replay starts from the material as it was opened. When the session saves over that file, it is
-/// kept beside the journal, so that steps, and undoing them, go on meaning the same after a save.
+/// A replay starts from the materials as they were opened, whoever names them. A file that the
+/// session replaces is kept beside the journal, so that steps, and undoing them, go on meaning the
+/// same after a save.
 namespace celadon::ui {
 
 class Journal {
@@ -30,20 +31,19 @@ public:
     /// Keeps it if it changes a material or the deformers. Failures to write are said once.
     /// @return what went wrong, the first time
     [[nodiscard]] std::optional<std::string> add(const Command& command);
-    /// To be called before a file is saved over: if it is the material that was opened, it is kept.
-    /// @return what went wrong
+    /// To be called before a file is written: keeps what stands there, if any change is in the
+    /// journal. @return what went wrong
     [[nodiscard]] std::optional<std::string> keep(const std::filesystem::path& file);
     /// Nothing is left to recover.
     void finish();
 
 private:
     void write(const Command& command);
-    void writeHeader();
 
     std::filesystem::path mFolder;
     std::filesystem::path mFile;
     std::ofstream mStream;
-    OpenRequest mOpened;
+    OpenRequest mOpened; ///< with all that was kept
     bool mHasFailed = false;
 };
 

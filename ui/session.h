@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,9 @@ namespace celadon::ui {
 struct OpenRequest {
     std::string model;
     std::string material;
+    /// Material files, by canonical path, and what is read in their place: how they were before a
+    /// session that did not end well saved over them (journal.h).
+    std::map<std::filesystem::path, std::filesystem::path> readInstead{};
 };
 
 /// What the editor cannot do by itself, given by the program.
@@ -142,6 +146,8 @@ public:
     std::optional<std::filesystem::path> materialFile; ///< where Save writes
     double aspect = 16.0 / 9.0;                        ///< of the viewport; set by the window
     std::vector<Notice> notices;
+    /// Told of each material file before it is written: what stands there may be worth keeping.
+    std::function<void(const std::filesystem::path&)> beforeWriting;
 
     void notify(Notice::Kind kind, const std::string& text);
 

@@ -118,6 +118,44 @@ void mergeInto(json& target, const json& made) {
     }
 }
 
+/// In the place of a material, which keeps its name and what `made` does not speak of.
+void putInto(json& target, const json& made) {
+    const json name = target.value("name", made["name"]);
+    mergeInto(target, made);
+    target["name"] = name;
+}
+
+/// All materials, and one for meshes that have none.
+void putOnAll(json& document, const json& made) {
+    json& materials = document["materials"];
+    for (json& target : materials) {
+        putInto(target, made);
+    }
+    bool isNeeded = false;
+    for (json& mesh : document["meshes"]) {
+        for (json& primitive : mesh["primitives"]) {
+            if (!primitive.contains("material")) {
+                primitive["material"] = materials.size();
+                isNeeded = true;
+            }
+        }
+    }
+    if (isNeeded) {
+        materials.push_back(made);
+    }
+}
+
+/// By index or name; null if there is none.
+json* findGltfMaterial(json& materials, const std::string& material) {
+    const std::optional<std::size_t> index = toIndex(material);
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        if (index ? i == *index : materials[i].value("name", "") == material) {
+            return &materials[i];
+        }
+    }
+    return nullptr;
+}
+
 } // namespace
 
 SubsurfaceParameters parametersFromJson(const json& parameters, const std::string& name,
@@ -211,59 +249,37 @@ json gltfMaterial(const NearestParameters& nearest, const std::string& name,
     return material;
 }
 
-void mergeGltfMaterial(json& document, const std::string& material, const json& made) {
-    if (!document.is_object() || !document.contains("asset") || !document["asset"].is_object() ||
-        document["asset"].value("version", "") != "2.0") {
-        throw InputError("glTF", "is not a glTF 2.0 document");
-    }
-    json& materials = document["materials"];
-    if (materials.is_null()) {
-        materials = json::array();
-    }
-    const auto put = [&](json& target) {
-        const json name = target.value("name", made["name"]);
-        mergeInto(target, made);
-        target["name"] = name;
+void mergeGltfMaterial(json& document, const std::string& file, const std::string& material,
+                       const json& made) {
+    const auto refuse = [&](const std::string& reason) {
+        throw InputError(fmt::format("'{}'", file), reason);
     };
-    if (material.empty()) {
-        for (json& target : materials) {
-            put(target);
+    try {
+        if (document.at("asset").at("version") != "2.0") {
+            refuse(fmt::format("is glTF {}, not 2.0", document["asset"]["version"].dump()));
         }
-        bool isNeeded = false;
-        for (json& mesh : document["meshes"]) {
-            for (json& primitive : mesh["primitives"]) {
-                if (!primitive.contains("material")) {
-                    primitive["material"] = materials.size();
-                    isNeeded = true;
-                }
+        json& materials = document["materials"];
+        if (materials.is_null()) {
+            materials = json::array();
+        }
+        if (material.empty()) {
+            putOnAll(document, made);
+        } else if (json* target = findGltfMaterial(materials, material)) {
+            putInto(*target, made);
+        } else {
+            refuse(fmt::format("has no material '{}' among its {}", material, materials.size()));
+        }
+        json& used = document["extensionsUsed"];
+        if (used.is_null()) {
+            used = json::array();
+        }
+        for (const auto& [extension, value] : made["extensions"].items()) {
+            if (std::find(used.begin(), used.end(), extension) == used.end()) {
+                used.push_back(extension);
             }
         }
-        if (isNeeded) {
-            materials.push_back(made);
-        }
-    } else {
-        const std::optional<std::size_t> index = toIndex(material);
-        json* target = nullptr;
-        for (std::size_t i = 0; i < materials.size(); ++i) {
-            if (index ? i == *index : materials[i].value("name", "") == material) {
-                target = &materials[i];
-                break;
-            }
-        }
-        if (target == nullptr) {
-            throw InputError(fmt::format("glTF material '{}'", material),
-                             fmt::format("is not among the {} of the document", materials.size()));
-        }
-        put(*target);
-    }
-    json& used = document["extensionsUsed"];
-    if (used.is_null()) {
-        used = json::array();
-    }
-    for (const auto& [extension, value] : made["extensions"].items()) {
-        if (std::find(used.begin(), used.end(), extension) == used.end()) {
-            used.push_back(extension);
-        }
+    } catch (const json::exception& error) {
+        refuse(fmt::format("is not laid out as glTF 2.0 is ({})", error.what()));
     }
 }
 

@@ -1,7 +1,7 @@
 #include "app/material/map_argument.h"
 #include "app/material/material_commands.h"
 #include "app/option_takers.h"
-#include "renderer/output/atomic_file.h"
+#include "app/profile/profile_output.h"
 #include "subedit/errors.h"
 #include "subedit/map/image_map.h"
 #include "subedit/map/material_bake.h"
@@ -206,10 +206,7 @@ void runBake(const BakeOptions& options) {
         return;
     }
     const bool fromMaps = checkSources(options);
-    if (options.output.empty()) {
-        throw UsageError("material bake", "-o is missing", "name the file to write");
-    }
-    checkWritable(options.output);
+    checkMaterialOutput("material bake", options.output);
     BakeSettings settings;
     settings.maxRadiusMm = options.maxRadiusMm;
     MaterialMap map;

@@ -1,6 +1,6 @@
 #include "app/material/material_commands.h"
 #include "app/option_takers.h"
-#include "renderer/output/atomic_file.h"
+#include "app/profile/profile_output.h"
 #include "subedit/errors.h"
 #include "subedit/map/material_convert.h"
 #include "subedit/map/material_file.h"
@@ -44,13 +44,10 @@ void runConvert(const ConvertOptions& options) {
         throw UsageError("material convert", "no material is given",
                          "name a file or a shipped material");
     }
-    if (options.output.empty()) {
-        throw UsageError("material convert", "-o is missing", "name the file to write");
-    }
     if (options.storeFloat && options.storeHalf) {
         throw UsageError("--half", "does not go with --float", "leave one of them out");
     }
-    checkWritable(options.output);
+    checkMaterialOutput("material convert", options.output);
     const MaterialMap map = readMaterial(findMaterial(options.material));
     MaterialMap out = convertMaterial(map, options.settings);
     if (!options.name.empty()) {

@@ -58,14 +58,11 @@ void runImport(const ImportOptions& options) {
     if (options.input.empty()) {
         throw UsageError("material import", "no parameters are given", "name a JSON file");
     }
-    if (options.output.empty()) {
-        throw UsageError("material import", "-o is missing", "name the file to write");
-    }
     if (options.convention == Convention::Gltf) {
         throw UsageError("--convention gltf", "has no parameters of subsurface scattering",
                          "choose openpbr or principled");
     }
-    checkWritable(options.output);
+    checkMaterialOutput("material import", options.output);
     std::vector<std::string> notes;
     const SubsurfaceParameters parameters = parametersFromJson(
         readJson(options.input), options.input, options.convention, options.unitMm, notes);
@@ -100,7 +97,7 @@ json exportGltf(const ExportOptions& options, const NearestParameters& nearest,
                          "write it beside the other");
     }
     json document = readJson(options.into);
-    mergeGltfMaterial(document, options.gltfMaterial, made);
+    mergeGltfMaterial(document, options.into, options.gltfMaterial, made);
     return document;
 }
 

@@ -2,7 +2,7 @@
 #include "app/material/material_commands.h"
 #include "app/material/response_table.h"
 #include "app/option_takers.h"
-#include "renderer/output/atomic_file.h"
+#include "app/profile/profile_output.h"
 #include "subedit/errors.h"
 #include "subedit/map/material_file.h"
 #include "subedit/medium.h"
@@ -61,9 +61,6 @@ void runFit(const FitOptions& options) {
                                                : "a table and images are both given",
                          "name a CSV of point pairs, or --images LIST");
     }
-    if (options.output.empty()) {
-        throw UsageError("material fit", "-o is missing", "name the file to write");
-    }
     if (!options.images.empty() && options.imageSettings.extentMm <= 0.0) {
         throw UsageError("material fit", "--extent is missing",
                          "say how many mm wide the images are");
@@ -73,7 +70,7 @@ void runFit(const FitOptions& options) {
         throw UsageError("material fit", "more profiles than can be solved for at once",
                          "give a smaller --size or fewer --segments");
     }
-    checkWritable(options.output);
+    checkMaterialOutput("material fit", options.output);
     const std::vector<ResponseSample> samples =
         options.images.empty() ? parseResponseCsv(readTextFile(options.table), options.table)
                                : readResponseImages(options.images, options.imageSettings);

@@ -41,6 +41,13 @@ void checkOutput(const std::string& output, const std::vector<std::string_view>&
     checkWritable(output);
 }
 
+void checkMaterialOutput(const std::string& command, const std::string& output) {
+    if (output.empty()) {
+        throw UsageError(command, "-o is missing", "name the .subedit.exr to write");
+    }
+    checkOutput(output, {".subedit.exr", ".exr"});
+}
+
 MaterialMap oneTexel(const FittedProfile& fitted, double eta, const std::string& name) {
     MaterialMap map;
     map.name = name;

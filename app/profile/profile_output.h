@@ -19,6 +19,9 @@ void emit(const std::string& output, const std::string& text);
 /// @throws UsageError, OutputError
 void checkOutput(const std::string& output, const std::vector<std::string_view>& endings);
 
+/// The same for a SubEdit file, which must have a name.
+void checkMaterialOutput(const std::string& command, const std::string& output);
+
 /// Whether a file name ends so, in any case.
 [[nodiscard]] bool hasEnding(const std::string& file, std::string_view ending);
 

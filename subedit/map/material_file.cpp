@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -354,7 +355,10 @@ void writeMaterial(const MaterialMap& map, const fs::path& file, StoredPrecision
     const auto fail = [&](const std::string& reason) {
         throw OutputError(fmt::format("'{}'", file.string()), "cannot be written: " + reason);
     };
-    if (file.extension() != ".exr") {
+    std::string extension = file.extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension != ".exr") {
         fail("the name does not end in .exr");
     }
     const std::unique_ptr<OIIO::ImageOutput> output =

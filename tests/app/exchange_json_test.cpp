@@ -122,21 +122,21 @@ TEST(ExchangeJson, MergingLeavesTheRestOfADocument) {
         {"extensionsUsed", {"KHR_materials_ior"}},
         {"materials", {{{"name", "skin"}, {"normalTexture", {{"index", 3}}}}, {{"name", "cloth"}}}},
         {"meshes", json::array()}};
-    mergeGltfMaterial(document, "skin", made);
+    mergeGltfMaterial(document, "m.gltf", "skin", made);
     EXPECT_EQ(document["materials"][0]["name"], "skin");
     EXPECT_EQ(document["materials"][0]["normalTexture"]["index"], 3);
     EXPECT_EQ(document["materials"][0]["extras"]["subedit"], "w.exr");
     EXPECT_FALSE(document["materials"][1].contains("extras"));
     EXPECT_EQ(document["extensionsUsed"].size(), 3u);
-    mergeGltfMaterial(document, "1", made);
+    mergeGltfMaterial(document, "m.gltf", "1", made);
     EXPECT_TRUE(document["materials"][1].contains("extras"));
-    EXPECT_THROW(mergeGltfMaterial(document, "7", made), InputError);
-    EXPECT_THROW(mergeGltfMaterial(document, "hair", made), InputError);
+    EXPECT_THROW(mergeGltfMaterial(document, "m.gltf", "7", made), InputError);
+    EXPECT_THROW(mergeGltfMaterial(document, "m.gltf", "hair", made), InputError);
     json old = {{"asset", {{"version", "1.0"}}}};
-    EXPECT_THROW(mergeGltfMaterial(old, "", made), InputError);
+    EXPECT_THROW(mergeGltfMaterial(old, "m.gltf", "", made), InputError);
 
     json bare = {{"asset", {{"version", "2.0"}}}, {"meshes", {{{"primitives", {{{"mode", 4}}}}}}}};
-    mergeGltfMaterial(bare, "", made);
+    mergeGltfMaterial(bare, "m.gltf", "", made);
     EXPECT_EQ(bare["meshes"][0]["primitives"][0]["material"], 0);
     EXPECT_EQ(bare["materials"].size(), 1u);
 }

@@ -48,6 +48,24 @@ TEST_F(MaterialCommand, BakeTakesCoefficients) {
                   HasSubstr("--roughness"));
 }
 
+TEST_F(MaterialCommand, OutputsOfAnotherKindAreRefusedBeforeTheWork) {
+    test::writeText(folder / "o.json", R"({"subsurface_color": [0.8, 0.5, 0.4]})");
+    test::writeText(folder / "r.csv", "x_i,y_i,x_o,y_o,r\n");
+    test::writeText(folder / "s.json", R"({"commands": []})");
+    for (const Words& words : {Words{"bake", "--recipe", "jade"}, Words{"convert", "jade"},
+                               Words{"import", file("o.json")}, Words{"fit", file("r.csv")},
+                               Words{"edit", "jade", "--strokes", file("s.json")}}) {
+        Words wrong = words;
+        wrong.insert(wrong.end(), {"-o", file("x.png")});
+        expectRefused(wrong, 2,
+                      AllOf(HasSubstr(file("x.png")), HasSubstr("end it in .subedit.exr")));
+        EXPECT_FALSE(std::filesystem::exists(folder / "x.png"));
+        expectRefused(words, 2, HasSubstr("-o is missing"));
+    }
+    expectDone({"convert", "jade", "--size", "4", "-o", file("UPPER.EXR")});
+    EXPECT_EQ(readMaterial(folder / "UPPER.EXR").width, 4);
+}
+
 TEST_F(MaterialCommand, BakeRespectsTheColorSpaceThatIsSaid) {
     test::writeText(folder / "a.ppm", "P6 1 1 255\n\xbc\xbc\xbc");
     const auto albedo = [&](const char* space) {
@@ -183,6 +201,18 @@ TEST_F(MaterialCommand, ExportIntoAGltf) {
                    "/tmp/elsewhere.gltf"},
                   2, HasSubstr("another folder"));
     expectRefused({"export", "jade", "--into", file("m.gltf")}, 2, HasSubstr("--into"));
+    const auto refusesInto = [&](const std::string& name, const std::string& says) {
+        expectRefused({"export", "jade", "--convention", "gltf", "--into", file(name),
+                       "--gltf-material", "hair", "-o", file("out.gltf")},
+                      3, AllOf(HasSubstr("'" + file(name) + "'"), HasSubstr(says)));
+    };
+    refusesInto("m.gltf", "has no material 'hair' among its 1");
+    test::writeText(folder / "old.gltf", R"({"asset":{"version":"1.0"}})");
+    refusesInto("old.gltf", "is glTF \"1.0\", not 2.0");
+    test::writeText(folder / "odd.gltf", R"({"asset":{"version":"2.0"},"materials":[7]})");
+    refusesInto("odd.gltf", "is not laid out as glTF 2.0 is");
+    test::writeText(folder / "none.gltf", "[]");
+    refusesInto("none.gltf", "is not laid out as glTF 2.0 is");
 }
 
 } // namespace

@@ -65,7 +65,7 @@ TEST(Journal, LeavesNothingBehindWhenFinished) {
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-TEST(Journal, KeepsTheOpenedMaterialWhenItIsSavedOver) {
+TEST(Journal, KeepsAMaterialThatIsSavedOver) {
     const test::TemporaryFolder folder;
     const std::filesystem::path state = folder / "state";
     const std::filesystem::path file = folder / "wax.subedit.exr";
@@ -83,12 +83,12 @@ TEST(Journal, KeepsTheOpenedMaterialWhenItIsSavedOver) {
     write("as opened");
     {
         Journal journal(state);
-        journal.begin({"m", file.string()});
+        journal.begin({"m", ""});         // the model names the material
         EXPECT_FALSE(journal.keep(file)); // nothing has been done: nothing to keep
         EXPECT_FALSE(std::filesystem::exists(state));
         EXPECT_FALSE(journal.add(kEdit));
         EXPECT_FALSE(journal.keep(folder / "new.subedit.exr"));
-        EXPECT_FALSE(journal.keep(file));
+        EXPECT_FALSE(journal.keep(folder / "state" / ".." / "wax.subedit.exr"));
         write("saved");
         EXPECT_FALSE(journal.add({"edit.undo"}));
         EXPECT_FALSE(journal.keep(file)); // what stands there now is this session's
@@ -100,8 +100,11 @@ TEST(Journal, KeepsTheOpenedMaterialWhenItIsSavedOver) {
     ASSERT_TRUE(found);
     EXPECT_EQ(found->commands.size(), 2u);
     EXPECT_EQ(found->opened.model, "m");
-    EXPECT_EQ(read(found->opened.material), "as opened");
-    EXPECT_FALSE(found->opened.material.ends_with(".subedit.exr")) << "Save would write to it";
+    EXPECT_EQ(found->opened.material, "");
+    ASSERT_EQ(found->opened.readInstead.size(), 1u);
+    const auto& [named, kept] = *found->opened.readInstead.begin();
+    EXPECT_EQ(named, std::filesystem::canonical(file));
+    EXPECT_EQ(read(kept), "as opened");
     EXPECT_EQ(read(file), "saved again");
 
     // The session that recovers goes on with what was kept, and cleans up when it ends.
@@ -109,12 +112,21 @@ TEST(Journal, KeepsTheOpenedMaterialWhenItIsSavedOver) {
     next.begin(found->opened);
     EXPECT_FALSE(next.add(kEdit));
     EXPECT_FALSE(next.keep(file));
-    EXPECT_TRUE(std::filesystem::exists(found->opened.material));
+    EXPECT_TRUE(std::filesystem::exists(kept));
     next.finish();
-    EXPECT_FALSE(std::filesystem::exists(found->opened.material));
+    EXPECT_FALSE(std::filesystem::exists(kept));
     discard(*found);
     EXPECT_TRUE(std::filesystem::is_empty(state));
     EXPECT_TRUE(std::filesystem::exists(file));
+}
+
+TEST(Journal, RemovesNoFileThatItDidNotKeep) {
+    const test::TemporaryFolder folder;
+    const std::filesystem::path mine = folder / "mine.kept.exr";
+    std::ofstream(mine) << "mine";
+    const Recovery recovery{folder / "state" / "1.journal", {"m", "", {{mine, mine}}}, {}};
+    discard(recovery);
+    EXPECT_TRUE(std::filesystem::exists(mine));
 }
 
 TEST(Journal, RubbishIsNoRecovery) {

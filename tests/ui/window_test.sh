@@ -46,7 +46,12 @@ stroke() { # a short stroke across the middle of the viewport
     xdotool mouseup 1
 }
 
-field() { grep -o "\"$1\":[^,}]*" "$state" | cut -d: -f2; }
+save_as() { # save_as FILE
+    xdotool key ctrl+s
+    await 30 '"asking":true'
+    xdotool type --delay 20 "$1"
+    xdotool key Return
+}
 
 # A stroke, undo, redo, save, close. What is saved differs exactly where the stroke was.
 start --record "$folder/record.jsonl"
@@ -61,10 +66,7 @@ xdotool key ctrl+z
 await 30 '"strokes":0'
 xdotool key ctrl+shift+z
 await 30 '"strokes":1'
-xdotool key ctrl+s
-await 30 '"asking":true'
-xdotool type --delay 20 "$folder/painted.subedit.exr"
-xdotool key Return
+save_as "$folder/painted.subedit.exr"
 await 30 '"modified":false'
 [ -s "$folder/painted.subedit.exr" ] || fail "nothing was saved"
 ls "$folder"/state/celadon/*.journal >/dev/null 2>&1 || fail "there is no journal"
@@ -137,10 +139,7 @@ rm -f "$state"
 await 60 '"rung":[0-9]'
 stroke
 await 30 '"strokes":1'
-xdotool key ctrl+s
-await 30 '"asking":true'
-xdotool type --delay 20 "$folder/full.subedit.exr"
-xdotool key Return
+save_as "$folder/full.subedit.exr"
 await 30 '"asking":false'
 await 30 'full.subedit.exr'
 await 5 '"modified":true'
@@ -163,4 +162,38 @@ for file in turn_0001.png turn_0002.png turn_0003.png exported.gltf exported.bin
     [ -s "$folder/$file" ] || fail "$file is missing"
 done
 "$program" info "$folder/exported.gltf" >/dev/null || fail "the export cannot be read"
+
+# A material that only a glTF names is saved over, then the process is killed: all strokes come back,
+# and undoing them leads to the material as it was opened.
+rm -f "$folder"/state/celadon/*.journal # of the process that was killed above
+model=$folder/exported.gltf
+printf '{"command":"file.save","file":"%s"}\n' "$folder/opened.subedit.exr" >"$folder/save.jsonl"
+"$program" edit "$model" --size 400x300 --quality draft --replay "$folder/save.jsonl" \
+    --exit-after-replay 2>"$folder/stderr" || fail "saving at once ended with $?"
+start
+xdotool key x
+stroke
+await 30 '"strokes":1'
+save_as "$folder/exported.subedit.exr"
+await 30 'This file exists'
+xdotool key Return # replace it
+await 30 '"modified":false'
+cmp -s "$folder/opened.subedit.exr" "$folder/exported.subedit.exr" && fail "the stroke was not saved"
+stroke
+await 30 '"strokes":2'
+kill -9 "$editor"
+wait "$editor" 2>/dev/null
+start
+await 30 '"asking":true'
+xdotool key Return # Recover
+await 60 '"strokes":2'
+xdotool key ctrl+z ctrl+z
+await 30 '"strokes":0'
+save_as "$folder/undone.subedit.exr"
+await 30 undone.subedit.exr
+xdotool key ctrl+q
+wait "$editor" || fail "the editor ended with $?"
+editor=
+cmp "$folder/opened.subedit.exr" "$folder/undone.subedit.exr" ||
+    fail "what was recovered did not begin with the material as it was opened"
 echo "passed in $SECONDS s"

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <utility>
 
 namespace celadon::ui {
 
@@ -37,9 +38,10 @@ void FileDialog::open(Kind kind, const std::string& title, std::vector<std::stri
     mSuffixes = std::move(suffixes);
     mName = name;
     mDone = std::move(done);
-    mMayReplace = false;
+    mWarnedOf.clear();
     mIsOpen = true;
     mAppears = true;
+    mTakesFocus = true;
     std::error_code failed;
     enter(std::filesystem::is_directory(folder, failed) ? folder
                                                         : std::filesystem::current_path(failed));
@@ -101,8 +103,8 @@ void FileDialog::choose() {
             file += mSuffixes.front();
             mName += mSuffixes.front();
         }
-        if (std::filesystem::exists(file, failed) && !mMayReplace) {
-            mMayReplace = true;
+        if (std::filesystem::exists(file, failed) && file != mWarnedOf) {
+            mWarnedOf = file;
             mProblem = "This file exists. Save again to replace it.";
             return;
         }
@@ -162,7 +164,6 @@ void FileDialog::drawEntries(float height) {
             next = mFolder / entry.name;
         } else if (isClicked) {
             mName = entry.name;
-            mMayReplace = false;
             if (mKind == Kind::Open && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
                 choose();
                 break;
@@ -194,9 +195,9 @@ void FileDialog::draw(float scale) {
         drawPlaces(scale);
         const float below = 3.4f * ImGui::GetFrameHeightWithSpacing();
         drawEntries(std::max(60.0f, ImGui::GetContentRegionAvail().y - below));
-        if (mAppears) {
+        mAppears = false;
+        if (std::exchange(mTakesFocus, false)) {
             ImGui::SetKeyboardFocusHere();
-            mAppears = false;
         }
         ImGui::SetNextItemWidth(-1.0f);
         const bool isEntered = ImGui::InputTextWithHint("##name", "File name or path", &mName,
@@ -217,6 +218,7 @@ void FileDialog::draw(float scale) {
         ImGui::PopStyleColor();
         if (isEntered || isAccepted) {
             choose();
+            mTakesFocus = true; // for as long as it asks, Enter answers
         } else if (isCancelled) {
             mIsOpen = false;
         }

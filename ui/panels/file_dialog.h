@@ -18,6 +18,7 @@ public:
               const std::filesystem::path& folder, const std::string& name,
               std::function<void(const std::filesystem::path&)> done);
     [[nodiscard]] bool isOpen() const { return mIsOpen; }
+    [[nodiscard]] const std::string& problem() const { return mProblem; } ///< that it shows
     void draw(float scale);
 
 private:
@@ -41,7 +42,8 @@ private:
     std::function<void(const std::filesystem::path&)> mDone;
     bool mIsOpen = false;
     bool mAppears = false;
-    bool mMayReplace = false; ///< the user was warned that the file exists
+    bool mTakesFocus = false;        ///< the name, with the next frame
+    std::filesystem::path mWarnedOf; ///< that it exists: once more, and it is replaced
 };
 
 } // namespace celadon::ui
