@@ -10,8 +10,9 @@ namespace celadon {
 
 namespace {
 
-constexpr int kGroup = 64;      ///< local_size_x of every shader here
-constexpr int kMaxGroups = 512; ///< in x; the rest goes to y
+constexpr int kGroup = 64;       ///< local_size_x of every shader here
+constexpr int kMaxGroups = 512;  ///< in x; the rest goes to y
+constexpr int kBoundedEach = 32; ///< vertices of an invocation of `vertex_bounds.comp`
 
 /// `include/deformer.glsl`
 struct DeformerEntry {
@@ -42,8 +43,9 @@ struct NodeEntry {
 };
 static_assert(sizeof(VertexNodes) == 64);
 
-void dispatch(int count) {
-    const int groups = (count + kGroup - 1) / kGroup;
+/// @param each what an invocation does of `count`
+void dispatch(int count, int each = 1) {
+    const int groups = (count + kGroup * each - 1) / (kGroup * each);
     const int across = std::min(groups, kMaxGroups);
     if (groups > 0) {
         glDispatchCompute(static_cast<GLuint>(across),
@@ -132,6 +134,7 @@ GpuDeformation::GpuDeformation(const gl::ShaderLibrary& shaders, const World& re
       mMorph("morph", shaders, {"morph.comp"}),
       mHandles("handles", shaders, {"handles.comp"}),
       mDeform("deform", shaders, {"deform.comp"}),
+      mDeformLattices("deform, lattices", shaders, {"deform.comp"}, {{"LATTICE", "1"}}),
       mFlatNormals("flat normals", shaders, {"flat_normals.comp"}),
       mFlip("flip triangles", shaders, {"flip_triangles.comp"}),
       mBoundsOf("vertex bounds", shaders, {"vertex_bounds.comp"}),
@@ -296,10 +299,15 @@ void GpuDeformation::move(std::size_t index, const Pose& pose) {
         source = &moveByNodes(mesh, *source, flags);
         flags |= kIsHandled;
     }
-    mDeform.use();
-    mDeform.set(0, glm::ivec4(mesh.vertices, mesh.influenceCount,
-                              static_cast<int>(pose.deformers.size()), flags));
-    mDeform.set(1, GpuWorld::kVertexFloats);
+    const bool hasLattice =
+        std::any_of(pose.deformers.begin(), pose.deformers.end(), [](const Deformer& deformer) {
+            return deformer.kind == Deformer::Kind::Lattice;
+        });
+    const gl::Program& deform = hasLattice ? mDeformLattices : mDeform;
+    deform.use();
+    deform.set(0, glm::ivec4(mesh.vertices, mesh.influenceCount,
+                             static_cast<int>(pose.deformers.size()), flags));
+    deform.set(1, GpuWorld::kVertexFloats);
     bindVertices(mesh, *source, mesh.matrices);
     geometry.vertices.bindStorage(4);
     mDeformers.bindStorage(5);
@@ -336,7 +344,7 @@ void GpuDeformation::measure() {
             mBoundsOf.set(0, mMeshes[m].vertices);
             mBoundsOf.set(2, glm::ivec2(task, geometry.scatters ? 1 : 0));
             geometry.vertices.bindStorage(0);
-            dispatch(mMeshes[m].vertices);
+            dispatch(mMeshes[m].vertices, kBoundedEach);
         }
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     }

@@ -73,7 +73,7 @@ private:
 
     const World& mRest;
     const GpuWorld& mTarget;
-    gl::Program mMorph, mHandles, mDeform, mFlatNormals, mFlip, mBoundsOf;
+    gl::Program mMorph, mHandles, mDeform, mDeformLattices, mFlatNormals, mFlip, mBoundsOf;
     gl::Buffer mNothing; ///< stands for a buffer that a mesh does not have
     gl::Buffer mDeformers, mLatticeOffsets, mNodes;
     std::shared_ptr<const NodeBinding> mNodeBinding; ///< that the meshes have

@@ -6,6 +6,8 @@
 
 layout(local_size_x = 64) in;
 
+const int kPerInvocation = 32; // vertices: with gpu_deformation.cpp
+
 layout(location = 0) uniform int count;
 layout(location = 1) uniform int stride;
 layout(location = 2) uniform ivec2 task; // 0: boxes, 1: distances, 2: spheres; also into the second entry (what scatters)
@@ -46,7 +48,6 @@ void main() {
         return;
     }
     const float kLargest = 1e15; // its square is still finite
-    int i = int(gl_GlobalInvocationID.x + gl_NumWorkGroups.x * 64u * gl_GlobalInvocationID.y);
     bool isFirst = gl_LocalInvocationIndex == 0u;
     if (isFirst) {
         for (int k = 0; k < 3; ++k) {
@@ -58,21 +59,44 @@ void main() {
         gones = 0u;
     }
     barrier();
-    if (i < count) {
+    uvec3 low = uvec3(0xffffffffu);
+    uvec3 high = uvec3(0u);
+    vec2 farthest = vec2(0.0);
+    uint gone = 0u;
+    vec3 centers[2] = vec3[2](vec3(0.0), vec3(0.0));
+    for (int entry = 0; entry <= task.y && task.x == 1; ++entry) {
+        centers[entry] = centerOf(entry);
+    }
+    // Neighbors lie side by side in memory: each invocation takes every 64th vertex of its group's.
+    int first = int(gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y) * 64 * kPerInvocation +
+                int(gl_LocalInvocationIndex);
+    for (int k = 0; k < kPerInvocation; ++k) {
+        int i = first + 64 * k;
+        if (i >= count) {
+            break;
+        }
         vec3 p = vec3(drawn[i * stride], drawn[i * stride + 1], drawn[i * stride + 2]);
         if (!all(lessThanEqual(abs(p), vec3(kLargest)))) { // NaN as well
-            atomicAdd(gones, 1u);
+            ++gone;
         } else if (task.x == 0) {
-            for (int k = 0; k < 3; ++k) {
-                atomicMin(lows[k], ordered(p[k]));
-                atomicMax(highs[k], ordered(p[k]));
-            }
+            uvec3 key = uvec3(ordered(p.x), ordered(p.y), ordered(p.z));
+            low = min(low, key);
+            high = max(high, key);
         } else {
-            for (int entry = 0; entry <= task.y; ++entry) {
-                vec3 d = p - centerOf(entry);
-                atomicMax(farthests[entry], floatBitsToUint(dot(d, d)));
-            }
+            vec3 d = p - centers[0];
+            vec3 e = p - centers[1];
+            farthest = max(farthest, vec2(dot(d, d), dot(e, e)));
         }
+    }
+    for (int k = 0; k < 3 && task.x == 0; ++k) {
+        atomicMin(lows[k], low[k]);
+        atomicMax(highs[k], high[k]);
+    }
+    for (int entry = 0; entry <= task.y && task.x == 1; ++entry) {
+        atomicMax(farthests[entry], floatBitsToUint(farthest[entry]));
+    }
+    if (gone > 0u) {
+        atomicAdd(gones, gone);
     }
     barrier();
     if (!isFirst) {

@@ -1,5 +1,6 @@
 // Bends of space (Barr 1984) and lattices, as in renderer/scene/deformer.cpp, of which this is the pair: keep both. After
-// include/vertex_pose.glsl.
+// include/vertex_pose.glsl. LATTICE: with lattices; software drivers follow all branches, and pay for them even where
+// there are none.
 #include "include/lattice.glsl"
 
 struct Deformer {
@@ -23,82 +24,86 @@ float reducedAngle(float angle) {
     return angle - kTwoPi * round(angle / kTwoPi);
 }
 
-vec3 mapAlongAxis(Deformer deformer, vec3 p, out mat3 jacobian) {
-    int a = deformer.kind.y;
-    int b = (a + 1) % 3;
-    int c = (a + 2) % 3;
-    float distance = p[a] - deformer.amount.z;
+// The axis first, in a cycle; and back.
+vec3 fromAxis(int axis, vec3 v) {
+    return axis == 0 ? v : (axis == 1 ? v.yzx : v.zxy);
+}
+
+vec3 toAxis(int axis, vec3 v) {
+    return axis == 0 ? v : (axis == 1 ? v.zxy : v.yzx);
+}
+
+// p and center with the axis first; the Jacobian as well.
+vec3 mapAlongAxis(Deformer deformer, vec3 center, vec3 p, out mat3 jacobian) {
+    int kind = deformer.kind.x;
+    float distance = p.x - deformer.amount.z;
     float s = clamp(distance, deformer.bounds.x, deformer.bounds.y);
     float beyond = distance - s;
     float slope = abs(beyond) <= deformer.bounds.z ? 1.0 : 0.0; // of s
-    float u = p[b] - deformer.center[b];
-    float v = p[c] - deformer.center[c];
+    float u = p.y - center.y;
+    float v = p.z - center.z;
     float rate = deformer.amount.x;
-    vec3 position = p;
-    jacobian = mat3(1.0);
-    if (deformer.kind.x == kTwist) {
-        float angle = reducedAngle(rate * s);
-        float cosine = cos(angle);
-        float sine = sin(angle);
+    float angle = (kind == kWave ? deformer.amount.y : rate) * s;
+    float reduced = reducedAngle(angle);
+    float cosine = cos(reduced);
+    float sine = sin(reduced);
+    if (kind == kTwist) {
         float turnedU = cosine * u - sine * v;
         float turnedV = sine * u + cosine * v;
-        position[b] = deformer.center[b] + turnedU;
-        position[c] = deformer.center[c] + turnedV;
-        jacobian[a][b] = -slope * rate * turnedV;
-        jacobian[a][c] = slope * rate * turnedU;
-        jacobian[b][b] = cosine;
-        jacobian[c][c] = cosine;
-        jacobian[b][c] = sine;
-        jacobian[c][b] = -sine;
-    } else if (deformer.kind.x == kBend) {
-        float angle = rate * s;
-        float reduced = reducedAngle(angle);
-        float cosine = cos(reduced);
-        float sine = sin(reduced);
+        jacobian = mat3(1.0, -slope * rate * turnedV, slope * rate * turnedU, //
+                        0.0, cosine, sine,                                    //
+                        0.0, -sine, cosine);
+        return vec3(p.x, center.y + turnedU, center.z + turnedV);
+    }
+    if (kind == kBend) {
         float sineOfHalf = sin(0.5 * reduced); // its square is that of the full angle's half
         bool isFlat = abs(angle) < 1e-4;
         float forth = (isFlat ? s : s * sine / angle) + beyond * cosine;
         float across = (isFlat ? 0.5 * s * angle : s * 2.0 * sineOfHalf * sineOfHalf / angle) + beyond * sine;
-        position[a] = deformer.amount.z + forth - u * sine;
-        position[b] = deformer.center[b] + across + u * cosine;
-        jacobian[a][a] = (1.0 - slope * rate * u) * cosine;
-        jacobian[a][b] = (1.0 - slope * rate * u) * sine;
-        jacobian[b][a] = -sine;
-        jacobian[b][b] = cosine;
-    } else if (deformer.kind.x == kTaper) {
-        float scale = 1.0 + rate * s;
-        position[b] = deformer.center[b] + scale * u;
-        position[c] = deformer.center[c] + scale * v;
-        jacobian[a][b] = slope * rate * u;
-        jacobian[a][c] = slope * rate * v;
-        jacobian[b][b] = scale;
-        jacobian[c][c] = scale;
-    } else {
-        float angle = reducedAngle(deformer.amount.y * s);
-        position[b] += rate * sin(angle);
-        jacobian[a][b] = slope * rate * deformer.amount.y * cos(angle);
+        float along = 1.0 - slope * rate * u;
+        jacobian = mat3(along * cosine, along * sine, 0.0, //
+                        -sine, cosine, 0.0,                //
+                        0.0, 0.0, 1.0);
+        return vec3(deformer.amount.z + forth - u * sine, center.y + across + u * cosine, p.z);
     }
-    return position;
+    if (kind == kTaper) {
+        float scale = 1.0 + rate * s;
+        jacobian = mat3(1.0, slope * rate * u, slope * rate * v, //
+                        0.0, scale, 0.0,                         //
+                        0.0, 0.0, scale);
+        return vec3(p.x, center.y + scale * u, center.z + scale * v);
+    }
+    jacobian = mat3(1.0, slope * rate * deformer.amount.y * cosine, 0.0, //
+                    0.0, 1.0, 0.0,                                       //
+                    0.0, 0.0, 1.0);
+    return vec3(p.x, p.y + rate * sine, p.z);
 }
 
 void deform(Deformer deformer, inout vec3 position, inout vec3 normal, inout vec3 miter) {
-    if (deformer.kind.x > kLattice) {
+    int kind = deformer.kind.x;
+    if (kind > kLattice) {
         return;
     }
-    if (deformer.kind.x == kInflate) {
+    if (kind == kInflate) {
         position += deformer.amount.x * miter;
         return;
     }
+    int axis = deformer.kind.y;
     mat3 jacobian;
-    if (deformer.kind.x == kLattice) {
+#ifdef LATTICE
+    if (kind == kLattice) {
+        axis = 0;
         position = mapThroughLattice(deformer.lattice, deformer.amount.xyz, deformer.center.xyz, position, jacobian);
-    } else {
-        position = mapAlongAxis(deformer, position, jacobian);
+    } else
+#endif
+    {
+        vec3 center = fromAxis(axis, deformer.center.xyz);
+        position = toAxis(axis, mapAlongAxis(deformer, center, fromAxis(axis, position), jacobian));
     }
     mat3 carrier = cofactors(jacobian);
-    normal = directionOr(carrier * normal, normal);
+    normal = directionOr(toAxis(axis, carrier * fromAxis(axis, normal)), normal);
     float size = length(miter);
     if (size > 0.0) {
-        miter = size * directionOr(carrier * miter, miter / size);
+        miter = size * directionOr(toAxis(axis, carrier * fromAxis(axis, miter)), miter / size);
     }
 }

@@ -1,5 +1,7 @@
 // Free-form deformation (Sederberg, Parry 1986), as in renderer/scene/lattice.cpp, of which this is the pair: keep
 // both. Offsets of the control points of all lattices, [z][y][x] each, mm.
+#ifdef LATTICE
+
 layout(std430, binding = 7) restrict readonly buffer LatticeOffsets { vec4 latticeOffsets[]; };
 
 const int kMaxLatticePoints = 8;
@@ -60,3 +62,5 @@ vec3 mapThroughLattice(ivec4 size, vec3 low, vec3 inverseExtent, vec3 p, out mat
     }
     return p + offset;
 }
+
+#endif
