@@ -51,6 +51,7 @@ private:
     void worldOpened();
     void recover(const Recovery& recovery);
     void offerRecovery();
+    void takeKey(KeyChord pressed);
     /// Turntable and motion go on with the clock, as fast as pictures come. @return whether they
     /// did
     bool play();
@@ -215,7 +216,9 @@ void Editor::setActions() {
     mActions.togglePlay = [this] { togglePlay(); };
     mActions.toggleTurntable = [this] { mLayout.isTurning = !mLayout.isTurning; };
     mActions.quit = [this] { mFiles.guard([this] { mShouldClose = true; }); };
+    mWindow.setTheme(mPreferences.theme);
     mActions.preferencesChanged = [this] {
+        mWindow.setTheme(mPreferences.theme);
         if (mPreferences.uiScale > 0.0) {
             mWindow.setScale(static_cast<float>(mPreferences.uiScale));
         }
@@ -479,14 +482,32 @@ void Editor::takeScreenshot(const std::filesystem::path& file) {
     writePicture(file, pixels, size);
 }
 
+/// The key that the preferences wait for: Escape leaves it as it was, Backspace takes it away.
+void Editor::takeKey(KeyChord pressed) {
+    const bool isGivenUp = pressed == *parseChord("Esc");
+    const bool isNone = pressed == *parseChord("Back");
+    if (!isGivenUp && !isNone && chordText(pressed).empty()) {
+        return; // shift and the like: more is to come
+    }
+    if (!isGivenUp) {
+        mPreferences.keys.set(*mLayout.keyWantedFor, isNone ? KeyChord{} : pressed);
+        mActions.preferencesChanged();
+    }
+    mLayout.keyWantedFor.reset();
+}
+
 void Editor::handleInput() {
     const ImGuiIO& io = ImGui::GetIO();
     for (const InputEvent& event : mWindow.takeInput()) {
         if (event.kind == InputEvent::Kind::Key) {
-            const Shortcut* const shortcut = findShortcut(event.button, event.modifiers);
-            if (shortcut != nullptr && !io.WantTextInput && !mFiles.isAsking()) {
-                performAction(shortcut->action,
-                              {mSession, mTools, mViewport.rect(), mLayout, mActions});
+            const KeyChord pressed{event.button, event.modifiers};
+            if (mLayout.keyWantedFor) {
+                takeKey(pressed);
+                continue;
+            }
+            const std::optional<Action> action = mPreferences.keys.find(pressed);
+            if (action && !io.WantTextInput && !mFiles.isAsking()) {
+                performAction(*action, {mSession, mTools, mViewport.rect(), mLayout, mActions});
             }
             continue;
         }

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "ui/key_map.h"
 #include "ui/layout_state.h"
-#include "ui/shortcuts.h"
 
 /// What each shortcut does: most are commands, some concern the window only.
 namespace celadon::ui {

@@ -62,7 +62,7 @@ void drawTabs(LayoutState& state) {
         }
         const bool isCurrent = named.tab == state.tab;
         ImGui::PushStyleColor(ImGuiCol_Button,
-                              isCurrent ? colors::kAccentDim : ImVec4(0.0f, 0.0f, 0.0f, 0.0f));
+                              isCurrent ? palette().accentDim : ImVec4(0.0f, 0.0f, 0.0f, 0.0f));
         if (ImGui::Button(named.label, {ImGui::CalcTextSize(named.label).x + margin, 0.0f})) {
             state.tab = named.tab;
         }
@@ -155,8 +155,9 @@ void drawLayout(const LayoutContext& context) {
     }
     context.viewport.wantCounts(context.state.panelsShown && context.state.tab == Tab::View);
     drawNotices(context);
-    drawHelpWindow(context.state.helpShown, context.scale);
-    if (drawPreferencesWindow(context.preferences, context.state.preferencesShown, context.scale)) {
+    drawHelpWindow(context.preferences.keys, context.state.helpShown, context.scale);
+    if (drawPreferencesWindow(context.preferences, context.state.preferencesShown,
+                              context.state.keyWantedFor, context.scale)) {
         context.actions.preferencesChanged();
     }
 }

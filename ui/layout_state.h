@@ -39,6 +39,7 @@ struct LayoutState {
     bool panelsShown = true;
     bool helpShown = false;
     bool preferencesShown = false;
+    std::optional<Action> keyWantedFor; ///< the preferences wait for a key
     Tab tab = Tab::Brush;
     std::optional<double> scrollTo; ///< of the side bar, once
     std::string openMenu;           ///< to be opened, once

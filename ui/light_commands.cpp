@@ -59,6 +59,9 @@ void changeLight(RigLight& item, const Arguments& a) {
         changed.outerConeRadians = glm::radians(outer);
         changed.innerConeRadians = glm::radians(std::min(inner, outer - 0.05));
     }
+    if (a.has("direction") || a.has("position")) {
+        item.followed.reset();
+    }
     item.light = changed;
     item.isOn = a.flag("on", item.isOn);
     item.name = a.text("name", item.name);
@@ -96,6 +99,7 @@ void addLightCommands(Session& session) {
     add("light.move", "Drags a light to a point in mm; it goes on aiming at the object",
         [&session](const Arguments& a) {
             RigLight& item = lightAt(session, a);
+            item.followed.reset();
             item.light = movedTo(item.light, a.vector3("position"), object(session));
         });
     commands.add(

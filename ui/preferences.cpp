@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 
 namespace celadon::ui {
@@ -39,6 +40,21 @@ double number(const nlohmann::json& object, const char* name, double least, doub
     return value >= least && value <= most ? value : otherwise;
 }
 
+constexpr std::array<const char*, 3> kThemes{"dark", "gray", "light"}; ///< in the order of Theme
+
+std::map<std::string, std::string> keysOf(const nlohmann::json& object) {
+    std::map<std::string, std::string> keys;
+    const auto found = object.find("keys");
+    if (found != object.end() && found->is_object()) {
+        for (const auto& [name, chord] : found->items()) {
+            if (chord.is_string()) {
+                keys[name] = chord.get<std::string>();
+            }
+        }
+    }
+    return keys;
+}
+
 } // namespace
 
 std::filesystem::path preferencesFile() {
@@ -56,6 +72,12 @@ Preferences readPreferences(const std::filesystem::path& file) {
     preferences.uiScale = number(object, "uiScale", 0.5, 4.0, 0.0);
     preferences.frameBudgetMs =
         number(object, "frameBudgetMs", 10.0, 1000.0, preferences.frameBudgetMs);
+    const auto theme =
+        std::find(kThemes.begin(), kThemes.end(), object.value("theme", nlohmann::json()));
+    if (theme != kThemes.end()) {
+        preferences.theme = static_cast<Theme>(theme - kThemes.begin());
+    }
+    preferences.keys.apply(keysOf(object));
     const auto autosave = object.find("autosave");
     preferences.autosave =
         autosave == object.end() || !autosave->is_boolean() || autosave->get<bool>();
@@ -65,7 +87,9 @@ Preferences readPreferences(const std::filesystem::path& file) {
 }
 
 void writePreferences(const Preferences& preferences, const std::filesystem::path& file) {
-    const nlohmann::json object{{"uiScale", preferences.uiScale},
+    const nlohmann::json object{{"theme", kThemes[static_cast<std::size_t>(preferences.theme)]},
+                                {"keys", preferences.keys.changes()},
+                                {"uiScale", preferences.uiScale},
                                 {"autosave", preferences.autosave},
                                 {"frameBudgetMs", preferences.frameBudgetMs},
                                 {"recentModels", preferences.recentModels},

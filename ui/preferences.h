@@ -1,5 +1,7 @@
 #pragma once
 
+#include "ui/key_map.h"
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -7,7 +9,11 @@
 /// What a user has chosen for good. A JSON file; what it lacks or has wrong takes its default.
 namespace celadon::ui {
 
+enum class Theme { Dark, Gray, Light };
+
 struct Preferences {
+    Theme theme = Theme::Dark;
+    KeyMap keys;
     double uiScale = 0.0; ///< 0: the display's
     bool autosave = true; ///< journals of sessions, for recovery
     double frameBudgetMs = 100.0;

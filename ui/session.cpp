@@ -67,7 +67,7 @@ void Session::adopt(const OpenRequest& request, OpenedScene scene) {
         rig = {};
         rig.environment = environment;
         for (const Light& light : mWorld->lights) {
-            rig.lights.push_back({lightKindName(light.kind), true, light});
+            rig.lights.push_back({lightKindName(light.kind), true, light, rig.lights.size()});
         }
         if (rig.lights.empty()) {
             rig.lights = lightPreset("back", camera, mWorld->scatteringSphere);

@@ -161,6 +161,8 @@ public:
 private:
     /// A model that is read again keeps its motion, as far as it still can.
     void adoptMotion(bool isSameModel);
+    /// The model's camera and lights that nobody has moved go along with its animation.
+    void followAnimation();
     /// What was chosen stays so where the list has it still.
     void keepChoice(const DeformerStack& before);
     /// Of all documents, in effect.
@@ -169,7 +171,8 @@ private:
     SessionServices mServices;
     Dispatcher mDispatcher;
     std::shared_ptr<const World> mWorld;
-    std::unique_ptr<Motion> mMover; ///< of mWorld
+    std::unique_ptr<Motion> mMover;        ///< of mWorld
+    std::optional<Camera> mFollowedCamera; ///< the model's first, as it was last
     std::shared_ptr<const World> mShownWorld;
     MotionSetting mShownSetting; ///< of mShownWorld
     MotionHistory mMotionHistory;

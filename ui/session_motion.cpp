@@ -9,8 +9,17 @@
 
 namespace celadon::ui {
 
+namespace {
+
+bool areAtOnePlace(const Camera& a, const Camera& b) {
+    return a.eye == b.eye && a.at == b.at && a.up == b.up;
+}
+
+} // namespace
+
 void Session::adoptMotion(bool isSameModel) {
     mMover = std::make_unique<Motion>(*mWorld);
+    mFollowedCamera.reset();
     mMotionHistory.clear();
     const MotionState before = std::exchange(motion, {});
     motion.now.deformers = mMover->deformers();
@@ -25,6 +34,7 @@ void Session::adoptMotion(bool isSameModel) {
             motion.now.animation = 0;
             mMover->selectAnimation(0);
         }
+        followAnimation();
         return;
     }
     MotionSetting kept = before.now;
@@ -46,6 +56,7 @@ void Session::setMotion(MotionSetting next) {
     mMover->setDeformers(next.deformers);
     mMover->selectAnimation(next.animation);
     motion.now = std::move(next);
+    followAnimation();
     touchPicture();
     if (isChanged) {
         for (const std::string& warning : mMover->warnings()) {
@@ -68,8 +79,36 @@ bool Session::advanceTime(double clockSeconds) {
     const double next = motion.now.seconds + motion.speed * clockSeconds;
     motion.now.seconds =
         next <= duration ? next : (motion.loops ? std::fmod(next, duration) : duration);
+    followAnimation();
     touchPicture();
     return motion.loops || next < duration;
+}
+
+void Session::followAnimation() {
+    if (!mWorld->rig || mWorld->rig->animations.empty()) {
+        return;
+    }
+    const Viewpoints now = mMover->viewpointsAt(motion.now.seconds);
+    for (RigLight& item : rig.lights) {
+        if (item.followed) {
+            item.light.position = now.lights[*item.followed].position;
+            item.light.direction = now.lights[*item.followed].direction;
+        }
+    }
+    if (now.cameras.empty()) {
+        return;
+    }
+    const Camera& atRest = mWorld->cameras.front();
+    const Camera before = mFollowedCamera.value_or(atRest);
+    for (Camera* const followed : {&camera, fileCamera ? &*fileCamera : nullptr}) {
+        if (followed != nullptr &&
+            (areAtOnePlace(*followed, before) || areAtOnePlace(*followed, atRest))) {
+            followed->eye = now.cameras.front().eye;
+            followed->at = now.cameras.front().at;
+            followed->up = now.cameras.front().up;
+        }
+    }
+    mFollowedCamera = now.cameras.front();
 }
 
 const std::shared_ptr<const World>& Session::shownWorld() {

@@ -1,19 +1,27 @@
 #pragma once
 
+#include "ui/preferences.h"
+
 #include <imgui.h>
 
-/// How the editor looks: calm, dark, one accent; fonts of the system where they are.
+/// How the editor looks: calm, one accent; fonts of the system where they are.
 namespace celadon::ui {
 
-namespace colors {
-inline const ImVec4 kAccent{0.56f, 0.78f, 0.66f, 1.0f}; ///< celadon
-inline const ImVec4 kAccentDim{0.30f, 0.45f, 0.38f, 1.0f};
-inline const ImVec4 kText{0.88f, 0.90f, 0.89f, 1.0f};
-inline const ImVec4 kMuted{0.55f, 0.58f, 0.57f, 1.0f};
-inline const ImVec4 kWarning{0.93f, 0.74f, 0.40f, 1.0f};
-inline const ImVec4 kError{0.94f, 0.48f, 0.43f, 1.0f};
-inline const ImVec4 kPanel{0.105f, 0.113f, 0.117f, 1.0f};
-} // namespace colors
+/// Beyond ImGui's own colors.
+struct Palette {
+    ImVec4 accent; ///< celadon
+    ImVec4 accentDim;
+    ImVec4 text;
+    ImVec4 label; ///< of fields
+    ImVec4 muted;
+    ImVec4 warning;
+    ImVec4 error;
+    ImVec4 panel;
+    ImVec4 well; ///< behind curves and graphs
+    ImVec4 grid;
+};
+/// Of the theme that was applied last.
+[[nodiscard]] const Palette& palette();
 
 /// A part of the frame around the viewport: it has its place.
 inline constexpr ImGuiWindowFlags kFixedWindow =
@@ -26,6 +34,6 @@ enum class Font { Body, Heading, Small, Mono };
 void loadFonts(float scale);
 [[nodiscard]] ImFont* font(Font which);
 
-void applyTheme(float scale);
+void applyTheme(Theme theme, float scale);
 
 } // namespace celadon::ui

@@ -158,6 +158,12 @@ void Window::setScale(float scale) {
     mHadEvents = true;
 }
 
+void Window::setTheme(Theme theme) {
+    mFontsStale = mFontsStale || theme != mTheme;
+    mTheme = theme;
+    mHadEvents = true;
+}
+
 void Window::waitEvents(double seconds) {
     if (seconds < 0.0) {
         glfwWaitEvents();
@@ -207,7 +213,7 @@ void Window::beginFrame() {
     passKeys();
     if (mFontsStale) {
         loadFonts(mScale);
-        applyTheme(mScale);
+        applyTheme(mTheme, mScale);
         ImGui_ImplOpenGL3_DestroyFontsTexture();
         ImGui_ImplOpenGL3_CreateFontsTexture();
         mFontsStale = false;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "renderer/gl/context.h"
+#include "ui/preferences.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
@@ -45,6 +46,7 @@ public:
     /// Screen pixels per unit of layout.
     [[nodiscard]] float scale() const { return mScale; }
     void setScale(float scale);
+    void setTheme(Theme theme);
 
     /// Sleeps until something happens, or for so long. @param seconds 0: looks only; < 0: for ever
     void waitEvents(double seconds);
@@ -83,6 +85,7 @@ private:
     GLFWwindow* mJobsWindow = nullptr;
     std::unique_ptr<gl::Context> mContext;
     float mScale = 1.0f;
+    Theme mTheme = Theme::Dark;
     bool mFontsStale = true;
     bool mHadEvents = true;
     std::string mTitle;

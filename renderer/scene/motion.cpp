@@ -46,7 +46,7 @@ std::vector<PlacedHandle> restPlaces(const AnimatedDeformer& deformer, const Wor
 
 } // namespace
 
-Motion::Motion(const World& rest) : mRest(rest), mCameras(rest.cameras), mLights(rest.lights) {
+Motion::Motion(const World& rest) : mRest(rest), mRestViewpoints{rest.cameras, rest.lights} {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     mBox = {glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
     for (const WorldMesh& part : rest.meshes) {
@@ -130,6 +130,25 @@ double Motion::durationSeconds() const {
     return duration;
 }
 
+Viewpoints Motion::viewpointsOf(const RigPose& pose) const {
+    const Rig& rig = *mRest.rig;
+    const double unit = mRest.millimetersPerUnit;
+    Viewpoints result = mRestViewpoints;
+    for (std::size_t i = 0; i < std::min(result.cameras.size(), rig.cameraNodes.size()); ++i) {
+        follow(pose.nodes[static_cast<std::size_t>(rig.cameraNodes[i])], unit, result.cameras[i]);
+    }
+    for (std::size_t i = 0; i < std::min(result.lights.size(), rig.lightNodes.size()); ++i) {
+        follow(pose.nodes[static_cast<std::size_t>(rig.lightNodes[i])], unit, result.lights[i]);
+    }
+    return result;
+}
+
+Viewpoints Motion::viewpointsAt(double seconds) const {
+    return mRest.rig && mAnimation
+               ? viewpointsOf(poseAt(*mRest.rig, animations()[*mAnimation], seconds))
+               : mRestViewpoints;
+}
+
 Pose Motion::at(double seconds, Settling settling) const {
     Pose result;
     result.meshes.resize(mRest.meshes.size());
@@ -140,8 +159,7 @@ Pose Motion::at(double seconds, Settling settling) const {
             mHandles->solve(held->handlesAt(seconds, mRest.millimetersPerUnit), settling);
     }
     result.box = mBox;
-    result.cameras = mCameras;
-    result.lights = mLights;
+    static_cast<Viewpoints&>(result) = mRestViewpoints;
     if (!mRest.rig) {
         return result;
     }
@@ -156,13 +174,8 @@ Pose Motion::at(double seconds, Settling settling) const {
             result.mirrored[m] = orientation(result.meshes[m]) * mRestSigns[m] < 0.0;
         }
     }
-    for (std::size_t i = 0; mAnimation && i < result.cameras.size() && i < rig.cameraNodes.size();
-         ++i) {
-        follow(pose.nodes[static_cast<std::size_t>(rig.cameraNodes[i])], unit, result.cameras[i]);
-    }
-    for (std::size_t i = 0; mAnimation && i < result.lights.size() && i < rig.lightNodes.size();
-         ++i) {
-        follow(pose.nodes[static_cast<std::size_t>(rig.lightNodes[i])], unit, result.lights[i]);
+    if (mAnimation) {
+        static_cast<Viewpoints&>(result) = viewpointsOf(pose);
     }
     return result;
 }

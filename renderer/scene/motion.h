@@ -22,15 +22,19 @@
 ///     const Pose pose = motion.at(1.5);          // seconds
 namespace celadon {
 
+/// Cameras and lights of a moment, in mm.
+struct Viewpoints {
+    std::vector<Camera> cameras; ///< of each of World::cameras
+    std::vector<Light> lights;   ///< of each of World::lights
+};
+
 /// A moment of a world: what is needed to move every vertex, in mm.
-struct Pose {
+struct Pose : Viewpoints {
     std::vector<MeshPose> meshes; ///< of each of World::meshes; without matrices: not bound
     std::vector<bool> mirrored;   ///< of each: its front became its back
     std::shared_ptr<const NodePose> nodes; ///< what handles do to the rest shape, before all else
     std::vector<Deformer> deformers;
     RestBox box;
-    std::vector<Camera> cameras; ///< of each of World::cameras
-    std::vector<Light> lights;   ///< of each of World::lights
 };
 
 class Motion {
@@ -60,11 +64,12 @@ public:
     /// The animation starts over after its end; deformers stay as their last keys have them.
     /// @throws InputError for a lattice that flattens everything at that time
     [[nodiscard]] Pose at(double seconds, Settling settling = Settling::Full) const;
+    /// That part of at() alone, quickly.
+    [[nodiscard]] Viewpoints viewpointsAt(double seconds) const;
 
 private:
     const World& mRest;
-    std::vector<Camera> mCameras; ///< at rest
-    std::vector<Light> mLights;
+    Viewpoints mRestViewpoints;
     std::optional<RigPose> mRestPose;
     std::vector<double> mRestSigns; ///< of each mesh's first matrix
     std::optional<std::size_t> mAnimation;
@@ -72,6 +77,7 @@ private:
     std::unique_ptr<HandleSolver> mHandles; ///< its solutions are kept; poses do not depend on it
     RestBox mBox;
 
+    [[nodiscard]] Viewpoints viewpointsOf(const RigPose& pose) const;
     [[nodiscard]] std::vector<Deformer> deformersAt(double seconds) const;
     [[nodiscard]] const AnimatedDeformer* handles() const; ///< null: none that is on
 };

@@ -235,5 +235,60 @@ TEST_F(MotionCommands, TheSameModelReadAgainKeepsDeformersAndTime) {
     EXPECT_TRUE(session.motion.now.deformers.empty());
 }
 
+/// The ball with a camera and a lamp on one node, which an animation carries along x by 2 units in
+/// a second.
+World readCarriedCamera(const OpenRequest& request) {
+    World world = readBall(request);
+    auto rig = std::make_shared<Rig>();
+    rig->nodes.resize(1);
+    rig->parentsFirst = {0};
+    rig->cameraNodes = {0};
+    rig->lightNodes = {0};
+    AnimationChannel channel;
+    channel.times = {0.0, 1.0};
+    channel.values = {0.0, 0.0, 300.0, 2.0, 0.0, 300.0};
+    channel.components = 3;
+    rig->animations.push_back({"pass by", {channel}, 1.0});
+    world.rig = rig;
+    Camera camera;
+    camera.eye = {0.0, 0.0, 300.0 * world.millimetersPerUnit};
+    camera.at = {};
+    world.cameras = {camera};
+    Light lamp;
+    lamp.kind = Light::Kind::Point;
+    lamp.color = glm::dvec3(5.0);
+    world.lights = {lamp};
+    return world;
+}
+
+TEST(AnimatedCamera, IsFollowedAsLongAsNobodyTakesIt) {
+    Session session({readCarriedCamera, {}, false});
+    session.execute({"file.open", {{"model", "ball"}}});
+    const double unit = session.world().millimetersPerUnit;
+    const auto at = [&](double seconds) {
+        session.execute({"motion.time", {{"seconds", seconds}}});
+    };
+    at(0.5);
+    EXPECT_NEAR(session.camera.eye.x, 1.0 * unit, 1e-9);
+    EXPECT_NEAR(session.rig.lights.at(0).light.position.x, 1.0 * unit, 1e-9);
+    session.execute({"light.change", {{"light", 0}, {"color", {9, 9, 9}}}});
+    session.advanceTime(0.25);
+    EXPECT_NEAR(session.camera.eye.x, 1.5 * unit, 1e-9);
+    EXPECT_NEAR(session.rig.lights[0].light.position.x, 1.5 * unit, 1e-9);
+    EXPECT_EQ(session.rig.lights[0].light.color, glm::dvec3(9.0)) << "its strength is the user's";
+
+    session.execute({"light.move", {{"light", 0}, {"position", {7, 8, 9}}}});
+    session.camera.eye.y += 10.0;
+    const Camera taken = session.camera;
+    at(1.0);
+    EXPECT_EQ(session.rig.lights[0].light.position, glm::dvec3(7, 8, 9));
+    EXPECT_EQ(session.camera.eye, taken.eye);
+    ASSERT_TRUE(session.fileCamera);
+    EXPECT_NEAR(session.fileCamera->eye.x, 2.0 * unit, 1e-9) << "where the model's view is by now";
+    session.execute({"camera.view", {{"name", "initial"}}});
+    at(0.0);
+    EXPECT_NEAR(session.camera.eye.x, 0.0, 1e-9) << "followed again";
+}
+
 } // namespace
 } // namespace celadon::ui

@@ -150,7 +150,7 @@ void drawOperators(Session& session) {
         column = (column + 1) % 3;
         const bool isCurrent = session.paint.op == name.op;
         ImGui::PushStyleColor(ImGuiCol_Button, isCurrent
-                                                   ? colors::kAccentDim
+                                                   ? palette().accentDim
                                                    : ImGui::GetStyleColorVec4(ImGuiCol_Button));
         if (ImGui::Button(name.label, {width, 0.0f})) {
             session.perform({"operator.change", {{"name", std::string(name.word)}}});
@@ -248,13 +248,16 @@ void drawParameters(Session& session) {
     }
 }
 
-void drawBrush(Session& session) {
+void drawBrush(Session& session, const KeyMap& keys) {
     heading("Brush");
     const subedit::Brush& brush = session.paint.brush;
     const float size = static_cast<float>(session.world().scatteringSphere.radius);
     float radius = brush.radiusMm;
-    if (sliderField("Radius", radius, 0.002f * size, size, "%.2f mm",
-                    "On the surface, mm (F and move the mouse, or [ and ])", true)) {
+    if (sliderField(
+            "Radius", radius, 0.002f * size, size, "%.2f mm",
+            keys.withKeys("On the surface, mm", {Action::Radius, Action::Smaller, Action::Larger})
+                .c_str(),
+            true)) {
         change(session, "brush.change", "radius", static_cast<double>(radius));
     }
     const auto percent = [&](const char* label, const char* name, float value, const char* help) {
@@ -264,7 +267,8 @@ void drawBrush(Session& session) {
             change(session, "brush.change", name, static_cast<double>(shown) / 100.0);
         }
     };
-    percent("Flow", "flow", brush.flow, "What one dab adds (Shift+F and move the mouse)");
+    percent("Flow", "flow", brush.flow,
+            keys.withKeys("What one dab adds", {Action::Strength}).c_str());
     percent("Opacity", "opacity", brush.opacity, "What one stroke reaches at most");
     percent("Hardness", "hardness", brush.hardness,
             "Part of the radius at full strength; the rest falls off smoothly");
@@ -290,7 +294,7 @@ void drawBrush(Session& session) {
     ImGui::NewLine();
 }
 
-void drawHistory(Session& session) {
+void drawHistory(Session& session, const KeyMap& keys) {
     const subedit::Document* const document = session.activeDocument();
     if (document == nullptr) {
         return;
@@ -309,10 +313,11 @@ void drawHistory(Session& session) {
     };
     const std::optional<std::string> undo = session.undoTitle();
     const std::optional<std::string> redo = session.redoTitle();
-    button("Undo", undo.has_value(), "edit.undo", undo ? *undo + " (Ctrl+Z)" : "Ctrl+Z");
+    button("Undo", undo.has_value(), "edit.undo",
+           keys.withKeys(undo.value_or("Nothing to undo"), {Action::Undo}));
     ImGui::SameLine(0.0f, gap);
     button("Redo", redo.has_value(), "edit.redo",
-           redo ? *redo + " (Ctrl+Shift+Z)" : "Ctrl+Shift+Z");
+           keys.withKeys(redo.value_or("Nothing to redo"), {Action::Redo}));
 }
 
 } // namespace
@@ -335,9 +340,9 @@ void drawBrushPanel(const LayoutContext& context) {
         }
         tooltip("Applies the operator to all that is selected");
     }
-    drawBrush(session);
+    drawBrush(session, context.preferences.keys);
     drawSelection(session);
-    drawHistory(session);
+    drawHistory(session, context.preferences.keys);
 }
 
 } // namespace celadon::ui

@@ -148,7 +148,7 @@ void FileDialog::drawEntries(float height) {
     for (const Entry& entry : mEntries) {
         const std::string label = entry.isFolder ? entry.name + "/" : entry.name;
         if (entry.isFolder) {
-            ImGui::PushStyleColor(ImGuiCol_Text, colors::kAccent);
+            ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
         }
         const bool isClicked = ImGui::Selectable(label.c_str(), entry.name == mName,
                                                  ImGuiSelectableFlags_AllowDoubleClick);
@@ -205,7 +205,7 @@ void FileDialog::draw(float scale) {
         if (mProblem.empty()) {
             ImGui::NewLine();
         } else {
-            ImGui::TextColored(colors::kWarning, "%s", mProblem.c_str());
+            ImGui::TextColored(palette().warning, "%s", mProblem.c_str());
         }
         const float width = 110.0f * scale;
         ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - 2.0f * width -
@@ -213,7 +213,7 @@ void FileDialog::draw(float scale) {
         const bool isCancelled = ImGui::Button("Cancel", {width, 0.0f}) ||
                                  ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
         ImGui::SameLine();
-        ImGui::PushStyleColor(ImGuiCol_Button, colors::kAccentDim);
+        ImGui::PushStyleColor(ImGuiCol_Button, palette().accentDim);
         const bool isAccepted = ImGui::Button(mKind == Kind::Save ? "Save" : "Open", {width, 0.0f});
         ImGui::PopStyleColor();
         if (isEntered || isAccepted) {

@@ -1,6 +1,5 @@
 #include "ui/panels/help_window.h"
 
-#include "ui/shortcuts.h"
 #include "ui/theme.h"
 #include "ui/widgets/fields.h"
 
@@ -8,32 +7,34 @@
 
 #include <algorithm>
 #include <cstring>
+#include <string>
 
 namespace celadon::ui {
 
 namespace {
 
-constexpr float kKeysWidth = 12.5f; ///< in font sizes
+constexpr float kKeysWidth = 15.0f; ///< in font sizes
 
 void row(const char* keys, const char* help) {
     const float width = ImGui::CalcTextSize(keys).x;
-    ImGui::TextColored(colors::kAccent, "%s", keys);
+    ImGui::TextColored(palette().accent, "%s", keys);
     ImGui::SameLine(0.0f, std::max(kKeysWidth * ImGui::GetFontSize() - width, 4.0f));
     ImGui::TextUnformatted(help);
 }
 
-void list(const char* group) {
+void list(const KeyMap& keys, const char* group) {
     heading(group);
-    for (const Shortcut& shortcut : shortcuts()) {
-        if (shortcut.help != nullptr && std::strcmp(shortcut.group, group) == 0) {
-            row(shortcut.keys, shortcut.help);
+    for (const HelpLine& line : helpLines()) {
+        if (std::strcmp(line.group, group) != 0) {
+            continue;
         }
+        row(keys.texts(line.actions).c_str(), line.help);
     }
 }
 
 } // namespace
 
-void drawHelpWindow(bool& isShown, float scale) {
+void drawHelpWindow(const KeyMap& keys, bool& isShown, float scale) {
     if (!isShown) {
         return;
     }
@@ -48,8 +49,8 @@ void drawHelpWindow(bool& isShown, float scale) {
                          ImGuiWindowFlags_NoSavedSettings)) {
         const bool isWide = display.x > 900.0f * scale;
         ImGui::BeginGroup();
-        list("Paint");
-        list("Files");
+        list(keys, "Paint");
+        list(keys, "Files");
         ImGui::EndGroup();
         if (isWide) {
             ImGui::SameLine(0.0f, 36.0f * scale);
@@ -59,9 +60,9 @@ void drawHelpWindow(bool& isShown, float scale) {
         for (const MouseHelp& help : mouseHelp()) {
             row(help.keys, help.help);
         }
-        list("View");
-        list("Motion");
-        list("Window");
+        list(keys, "View");
+        list(keys, "Motion");
+        list(keys, "Window");
         ImGui::EndGroup();
     }
     ImGui::End();

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "ui/key_map.h"
+
 namespace celadon::ui {
 
 /// The shortcuts, over everything.
-void drawHelpWindow(bool& isShown, float scale);
+void drawHelpWindow(const KeyMap& keys, bool& isShown, float scale);
 
 } // namespace celadon::ui

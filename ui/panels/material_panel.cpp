@@ -103,12 +103,12 @@ void drawCard(const LayoutContext& context, const LibraryMaterial& material, flo
         list.AddRectFilled(at, end, ImGui::GetColorU32(ImGuiCol_FrameBg), rounding);
     }
     if (isHovered) {
-        list.AddRect(at, end, ImGui::GetColorU32(colors::kAccent), rounding, 0, 1.5f);
+        list.AddRect(at, end, ImGui::GetColorU32(palette().accent), rounding, 0, 1.5f);
     }
     ImGui::PushFont(font(Font::Small));
     const ImVec2 text = ImGui::GetCursorScreenPos();
     list.PushClipRect(text, {text.x + side, text.y + ImGui::GetTextLineHeight() + 2.0f}, true);
-    list.AddText({text.x + 1.0f, text.y - 2.0f}, ImGui::GetColorU32(colors::kText),
+    list.AddText({text.x + 1.0f, text.y - 2.0f}, ImGui::GetColorU32(palette().text),
                  material.label.c_str());
     list.PopClipRect();
     ImGui::Dummy({side, ImGui::GetTextLineHeight()});

@@ -12,9 +12,9 @@ namespace celadon::ui {
 
 namespace {
 
-void item(const char* label, const char* shortcut, const std::function<void()>& act,
+void item(const char* label, const std::string& shortcut, const std::function<void()>& act,
           bool enabled = true) {
-    if (ImGui::MenuItem(label, shortcut, false, enabled)) {
+    if (ImGui::MenuItem(label, shortcut.c_str(), false, enabled)) {
         act();
     }
 }
@@ -47,7 +47,8 @@ void drawRecent(const char* label, const std::vector<std::string>& entries,
 
 void drawFileMenu(const LayoutContext& context) {
     const LayoutActions& actions = context.actions;
-    item("Open model\xe2\x80\xa6", "Ctrl+O", actions.openModel);
+    const KeyMap& keys = context.preferences.keys;
+    item("Open model\xe2\x80\xa6", keys.text(Action::Open), actions.openModel);
     if (ImGui::BeginMenu("Builtin models")) {
         for (const std::string& name : builtinNames()) {
             if (ImGui::MenuItem(materialLabel(name).c_str())) {
@@ -62,8 +63,8 @@ void drawFileMenu(const LayoutContext& context) {
     item("Open environment\xe2\x80\xa6", "", actions.openEnvironment);
     ImGui::Separator();
     const bool hasMaterial = context.session.activeDocument() != nullptr;
-    item("Save material", "Ctrl+S", actions.save, hasMaterial);
-    item("Save material as\xe2\x80\xa6", "Ctrl+Shift+S", actions.saveAs, hasMaterial);
+    item("Save material", keys.text(Action::Save), actions.save, hasMaterial);
+    item("Save material as\xe2\x80\xa6", keys.text(Action::SaveAs), actions.saveAs, hasMaterial);
     ImGui::Separator();
     const bool hasWorld = context.session.hasWorld();
     item("Open deformers\xe2\x80\xa6", "", actions.openDeformers, hasWorld);
@@ -75,7 +76,7 @@ void drawFileMenu(const LayoutContext& context) {
         actions.saveTurntable(context.state.turntableFrames);
     }
     ImGui::Separator();
-    item("Quit", "Ctrl+Q", actions.quit);
+    item("Quit", keys.text(Action::Quit), actions.quit);
 }
 
 void drawEditMenu(const LayoutContext& context) {
@@ -83,22 +84,27 @@ void drawEditMenu(const LayoutContext& context) {
     const subedit::Document* const document = session.activeDocument();
     const std::optional<std::string> undo = session.undoTitle();
     const std::optional<std::string> redo = session.redoTitle();
-    const auto command = [&session](const char* label, const char* shortcut, Command action,
+    const KeyMap& keys = context.preferences.keys;
+    const auto command = [&session](const char* label, const std::string& shortcut, Command action,
                                     bool enabled) {
-        if (ImGui::MenuItem(label, shortcut, false, enabled)) {
+        if (ImGui::MenuItem(label, shortcut.c_str(), false, enabled)) {
             session.perform(action);
         }
     };
-    command(("Undo " + undo.value_or("")).c_str(), "Ctrl+Z", {"edit.undo"}, undo.has_value());
-    command(("Redo " + redo.value_or("")).c_str(), "Ctrl+Shift+Z", {"edit.redo"}, redo.has_value());
+    command(("Undo " + undo.value_or("")).c_str(), keys.text(Action::Undo), {"edit.undo"},
+            undo.has_value());
+    command(("Redo " + redo.value_or("")).c_str(), keys.text(Action::Redo), {"edit.redo"},
+            redo.has_value());
     ImGui::Separator();
     const bool has = document != nullptr;
-    command("Fill the selection", nullptr, {"edit.fill"}, has);
-    command("Swap profiles", "X", {"profile.swap"}, true);
+    command("Fill the selection", "", {"edit.fill"}, has);
+    command("Swap profiles", keys.text(Action::Swap), {"profile.swap"}, true);
     ImGui::Separator();
-    command("Select all", "Ctrl+A", {"select.change", {{"what", "all"}}}, has);
-    command("Select nothing", "Ctrl+D", {"select.change", {{"what", "none"}}}, has);
-    command("Invert the selection", "Ctrl+I", {"select.change", {{"what", "invert"}}}, has);
+    command("Select all", keys.text(Action::SelectAll), {"select.change", {{"what", "all"}}}, has);
+    command("Select nothing", keys.text(Action::SelectNone), {"select.change", {{"what", "none"}}},
+            has);
+    command("Invert the selection", keys.text(Action::SelectInvert),
+            {"select.change", {{"what", "invert"}}}, has);
     ImGui::Separator();
     if (ImGui::MenuItem("Preferences\xe2\x80\xa6")) {
         context.state.preferencesShown = true;
@@ -113,28 +119,35 @@ void drawViewMenu(const LayoutContext& context) {
         }
     }
     ImGui::Separator();
-    constexpr std::array<std::array<const char*, 3>, 3> kSides{
-        {{"Front", "Num 1", "front"}, {"Right", "Num 3", "right"}, {"Top", "Num 7", "top"}}};
-    for (const auto& [label, key, word] : kSides) {
-        if (ImGui::MenuItem(label, key)) {
+    const KeyMap& keys = context.preferences.keys;
+    struct Side {
+        const char* label;
+        Action action;
+        const char* word;
+    };
+    for (const auto& [label, action, word] :
+         {Side{"Front", Action::Front, "front"}, Side{"Right", Action::Right, "right"},
+          Side{"Top", Action::Top, "top"}}) {
+        if (ImGui::MenuItem(label, keys.text(action).c_str())) {
             session.perform({"camera.view", {{"name", word}}});
         }
     }
-    if (ImGui::MenuItem("Frame the model", "Home")) {
+    if (ImGui::MenuItem("Frame the model", keys.text(Action::Frame).c_str())) {
         session.perform({"camera.frame", {{"aspect", session.aspect}}});
     }
-    if (ImGui::MenuItem("Play", "Space", session.motion.isPlaying,
+    if (ImGui::MenuItem("Play", keys.text(Action::Play).c_str(), session.motion.isPlaying,
                         session.hasWorld() && session.mover().durationSeconds() > 0.0)) {
         context.actions.togglePlay();
     }
-    if (ImGui::MenuItem("Turntable", "Shift+Space", context.state.isTurning)) {
+    if (ImGui::MenuItem("Turntable", keys.text(Action::Turntable).c_str(),
+                        context.state.isTurning)) {
         context.actions.toggleTurntable();
     }
     ImGui::Separator();
-    if (ImGui::MenuItem("Panels", "H", context.state.panelsShown)) {
+    if (ImGui::MenuItem("Panels", keys.text(Action::Panels).c_str(), context.state.panelsShown)) {
         context.state.panelsShown = !context.state.panelsShown;
     }
-    item("Full screen", "F11", context.actions.toggleFullScreen);
+    item("Full screen", keys.text(Action::FullScreen), context.actions.toggleFullScreen);
 }
 
 } // namespace
@@ -156,7 +169,7 @@ void drawMenuBar(const LayoutContext& context) {
         ImGui::EndMenu();
     }
     if (beginMenu(context.state, "Help", "help")) {
-        if (ImGui::MenuItem("Shortcuts", "F1")) {
+        if (ImGui::MenuItem("Shortcuts", context.preferences.keys.text(Action::Help).c_str())) {
             context.state.helpShown = true;
         }
         ImGui::EndMenu();

@@ -15,9 +15,9 @@ namespace {
 constexpr std::chrono::seconds kInfoTime{8};
 
 ImVec4 colorOf(Notice::Kind kind) {
-    return kind == Notice::Kind::Error     ? colors::kError
-           : kind == Notice::Kind::Warning ? colors::kWarning
-                                           : colors::kAccent;
+    return kind == Notice::Kind::Error     ? palette().error
+           : kind == Notice::Kind::Warning ? palette().warning
+                                           : palette().accent;
 }
 
 } // namespace
@@ -37,7 +37,7 @@ void drawNotices(const LayoutContext& context) {
             std::min(static_cast<float>(rect.size.x) - 24.0f * scale, 460.0f * scale);
         ImGui::SetNextWindowPos({static_cast<float>(rect.origin.x) + 12.0f * scale, y});
         ImGui::SetNextWindowSize({std::max(width, 80.0f), 0.0f});
-        ImGui::PushStyleColor(ImGuiCol_WindowBg, {0.13f, 0.138f, 0.142f, 0.97f});
+        ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
         ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 6.0f * scale);
         bool isDismissed = false;
         if (ImGui::Begin(fmt::format("##notice{}", i).c_str(), nullptr,

@@ -1,5 +1,6 @@
 #include "ui/panels/preferences_window.h"
 
+#include "ui/theme.h"
 #include "ui/widgets/fields.h"
 
 #include <imgui.h>
@@ -9,8 +10,54 @@
 
 namespace celadon::ui {
 
-bool drawPreferencesWindow(Preferences& preferences, bool& isShown, float scale) {
+namespace {
+
+/// A list of actions; a click on a key asks for another one.
+bool drawKeys(KeyMap& keys, std::optional<Action>& keyWantedFor, float scale) {
+    heading("Keys");
+    if (ImGui::BeginChild("##keys", {0.0f, 170.0f * scale}, true)) {
+        for (const ActionInfo& info : actionInfos()) {
+            ImGui::PushID(info.name);
+            ImGui::AlignTextToFramePadding();
+            ImGui::TextUnformatted(info.label);
+            const float width = 130.0f * scale;
+            ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
+            const bool isWanted = keyWantedFor == info.action;
+            const std::string text = keys.text(info.action);
+            if (isWanted) {
+                ImGui::PushStyleColor(ImGuiCol_Button, palette().accentDim);
+            }
+            if (ImGui::Button(isWanted       ? "press a key"
+                              : text.empty() ? "none"
+                                             : text.c_str(),
+                              {width, 0.0f})) {
+                keyWantedFor = info.action;
+            }
+            if (isWanted) {
+                ImGui::PopStyleColor();
+            }
+            tooltip("Click, then press the key. Backspace: none; Escape: as it is. Another action "
+                    "that had the key loses it");
+            ImGui::PopID();
+        }
+    }
+    ImGui::EndChild();
+    const bool isUsual = keys == KeyMap();
+    ImGui::BeginDisabled(isUsual);
+    const bool isReset = ImGui::Button("The usual keys");
+    ImGui::EndDisabled();
+    if (isReset) {
+        keys = KeyMap();
+    }
+    return isReset;
+}
+
+} // namespace
+
+bool drawPreferencesWindow(Preferences& preferences, bool& isShown,
+                           std::optional<Action>& keyWantedFor, float scale) {
     if (!isShown) {
+        keyWantedFor.reset();
         return false;
     }
     bool isChanged = false;
@@ -20,6 +67,16 @@ bool drawPreferencesWindow(Preferences& preferences, bool& isShown, float scale)
     if (ImGui::Begin("Preferences", &isShown,
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                          ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings)) {
+        heading("Theme");
+        constexpr std::array<const char*, 3> kThemes{"Dark", "Gray", "Light"};
+        constexpr std::array<const char*, 3> kThemeHelps{"Calm", "Neutral, to judge colors by",
+                                                         "For bright rooms"};
+        const int theme = choiceRow("theme", kThemes.data(), kThemeHelps.data(), 3,
+                                    static_cast<int>(preferences.theme));
+        if (theme >= 0) {
+            preferences.theme = static_cast<Theme>(theme);
+            isChanged = true;
+        }
         heading("Scale of the interface");
         constexpr std::array<const char*, 5> kLabels{"Display", "100 %", "125 %", "150 %", "200 %"};
         constexpr std::array<double, 5> kScales{0.0, 1.0, 1.25, 1.5, 2.0};
@@ -39,6 +96,7 @@ bool drawPreferencesWindow(Preferences& preferences, bool& isShown, float scale)
             preferences.frameBudgetMs = static_cast<double>(budget);
             isChanged = true;
         }
+        isChanged |= drawKeys(preferences.keys, keyWantedFor, scale);
         heading("Safety");
         isChanged |=
             ImGui::Checkbox("Keep a journal for recovery after a crash", &preferences.autosave);

@@ -46,7 +46,7 @@ void Question::draw(float scale) {
                 ImGui::SameLine();
             }
             if (i == 0) {
-                ImGui::PushStyleColor(ImGuiCol_Button, colors::kAccentDim);
+                ImGui::PushStyleColor(ImGuiCol_Button, palette().accentDim);
             }
             if (ImGui::Button(mAnswers[static_cast<std::size_t>(i)].label.c_str(), {width, 0.0f})) {
                 chosen = i;

@@ -27,7 +27,7 @@ std::string qualityText(const Viewport& viewport) {
 
 void drawJob(const LayoutContext& context, const BackgroundJobs::Running& job) {
     const float height = ImGui::GetFontSize() + 2.0f * context.scale;
-    ImGui::TextColored(colors::kAccent, "%s", job.title.c_str());
+    ImGui::TextColored(palette().accent, "%s", job.title.c_str());
     ImGui::SameLine();
     ImGui::ProgressBar(static_cast<float>(job.fraction), {140.0f * context.scale, height},
                        fmt::format("{:.0f} %", 100.0 * job.fraction).c_str());
@@ -53,11 +53,11 @@ void drawStatusBar(const LayoutContext& context) {
     ImGui::SetNextWindowSize({size.x, statusBarHeight(scale)});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {10.0f * scale, 4.0f * scale});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.0f, 1.0f});
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, {0.082f, 0.088f, 0.092f, 1.0f});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg));
     if (ImGui::Begin("##status", nullptr, kFixedWindow | ImGuiWindowFlags_NoScrollbar)) {
         ImGui::PushFont(font(Font::Small));
         if (!context.state.activity.empty()) {
-            ImGui::TextColored(colors::kWarning, "%s", context.state.activity.c_str());
+            ImGui::TextColored(palette().warning, "%s", context.state.activity.c_str());
         } else if (context.state.job) {
             drawJob(context, *context.state.job);
         } else if (session.hasWorld()) {
@@ -112,7 +112,7 @@ void drawViewportHint(const LayoutContext& context) {
     }
     if (!what.empty()) {
         pill(what, static_cast<float>(rect.origin.y) + 12.0f * scale,
-             ImGui::GetColorU32(colors::kAccent));
+             ImGui::GetColorU32(palette().accent));
     }
     ImGui::PopFont();
 }

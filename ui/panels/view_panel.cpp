@@ -40,19 +40,24 @@ void drawDisplay(Session& session) {
     tooltip("The specular lobe of the surface, which paints itself over the scattered light");
 }
 
-void drawCamera(Session& session) {
+void drawCamera(Session& session, const KeyMap& keys) {
     heading("Camera");
     constexpr std::array<const char*, 3> kTop{"Front", "Right", "Top"};
     constexpr std::array<const char*, 3> kTopWords{"front", "right", "top"};
-    constexpr std::array<const char*, 3> kTopHelps{"Numpad 1", "Numpad 3", "Numpad 7"};
-    const int side = choiceRow("sides", kTop.data(), kTopHelps.data(), 3, -1);
+    const std::array<std::string, 3> sideKeys{keys.text(Action::Front), keys.text(Action::Right),
+                                              keys.text(Action::Top)};
+    const std::array<const char*, 3> topHelps{sideKeys[0].c_str(), sideKeys[1].c_str(),
+                                              sideKeys[2].c_str()};
+    const int side = choiceRow("sides", kTop.data(), topHelps.data(), 3, -1);
     if (side >= 0) {
         session.perform({"camera.view", {{"name", kTopWords[static_cast<std::size_t>(side)]}}});
     }
     constexpr std::array<const char*, 2> kFit{"Frame", "Initial"};
-    constexpr std::array<const char*, 2> kFitHelps{
-        "Fits the object into the view (Home)", "The view that the scene opened with (Numpad 0)"};
-    const int fit = choiceRow("fit", kFit.data(), kFitHelps.data(), 2, -1);
+    const std::string frameHelp = keys.withKeys("Fits the object into the view", {Action::Frame});
+    const std::string initialHelp =
+        keys.withKeys("The view that the scene opened with", {Action::Initial});
+    const std::array<const char*, 2> fitHelps{frameHelp.c_str(), initialHelp.c_str()};
+    const int fit = choiceRow("fit", kFit.data(), fitHelps.data(), 2, -1);
     if (fit == 0) {
         session.perform({"camera.frame", {{"aspect", session.aspect}}});
     } else if (fit == 1) {
@@ -62,7 +67,7 @@ void drawCamera(Session& session) {
     if (ImGui::Checkbox("Orthographic", &orthographic)) {
         session.perform({"camera.projection", {{"orthographic", orthographic}}});
     }
-    tooltip("Without perspective (Numpad 5)");
+    tooltip(keys.withKeys("Without perspective", {Action::Projection}).c_str());
     float fov = static_cast<float>(session.camera.fovYDegrees);
     if (!orthographic &&
         sliderField("Field of view", fov, 5.0f, 90.0f, "%.0f\xc2\xb0", "Vertical, in degrees")) {
@@ -77,7 +82,10 @@ void drawTurntable(const LayoutContext& context) {
     if (ImGui::Button(context.state.isTurning ? "Stop" : "Play", {width, 0.0f})) {
         context.actions.toggleTurntable();
     }
-    tooltip("Turns the object, light and eye at rest: once around in ten seconds (Shift+Space)");
+    tooltip(context.preferences.keys
+                .withKeys("Turns the object, light and eye at rest: once around in ten seconds",
+                          {Action::Turntable})
+                .c_str());
     ImGui::SameLine(0.0f, gap);
     if (ImGui::Button("Save sequence\xe2\x80\xa6", {width, 0.0f})) {
         context.actions.saveTurntable(context.state.turntableFrames);
@@ -219,7 +227,7 @@ void drawViewPanel(const LayoutContext& context) {
     drawDisplay(context.session);
     drawModes(context);
     drawTimings(context.viewport);
-    drawCamera(context.session);
+    drawCamera(context.session, context.preferences.keys);
     drawTurntable(context);
 }
 

@@ -14,7 +14,7 @@ constexpr float kLabelPart = 0.38f; ///< of the width
 
 void label(const char* text, const char* help) {
     ImGui::AlignTextToFramePadding();
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.70f, 0.73f, 0.72f, 1.0f));
+    ImGui::PushStyleColor(ImGuiCol_Text, palette().label);
     ImGui::TextUnformatted(text);
     ImGui::PopStyleColor();
     tooltip(help);
@@ -43,7 +43,7 @@ void tooltip(const char* text) {
 void heading(const char* text) {
     ImGui::Spacing();
     ImGui::PushFont(font(Font::Heading));
-    ImGui::PushStyleColor(ImGuiCol_Text, colors::kAccent);
+    ImGui::PushStyleColor(ImGuiCol_Text, palette().accent);
     ImGui::TextUnformatted(text);
     ImGui::PopStyleColor();
     ImGui::PopFont();
@@ -51,7 +51,7 @@ void heading(const char* text) {
 
 void hint(const char* text) {
     ImGui::PushFont(font(Font::Small));
-    ImGui::PushStyleColor(ImGuiCol_Text, colors::kMuted);
+    ImGui::PushStyleColor(ImGuiCol_Text, palette().muted);
     ImGui::PushTextWrapPos(0.0f);
     ImGui::TextUnformatted(text);
     ImGui::PopTextWrapPos();
@@ -110,8 +110,8 @@ int choiceRow(const char* id, const char* const* labels, const char* const* help
         }
         const bool isCurrent = i == current;
         if (isCurrent) {
-            ImGui::PushStyleColor(ImGuiCol_Button, colors::kAccentDim);
-            ImGui::PushStyleColor(ImGuiCol_ButtonHovered, colors::kAccentDim);
+            ImGui::PushStyleColor(ImGuiCol_Button, palette().accentDim);
+            ImGui::PushStyleColor(ImGuiCol_ButtonHovered, palette().accentDim);
         }
         if (ImGui::Button(labels[i], {width, 0.0f})) {
             clicked = i;
@@ -126,7 +126,7 @@ int choiceRow(const char* id, const char* const* labels, const char* const* help
 }
 
 void readout(const char* name, const std::string& value, const char* help) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.70f, 0.73f, 0.72f, 1.0f));
+    ImGui::PushStyleColor(ImGuiCol_Text, palette().label);
     ImGui::TextUnformatted(name);
     ImGui::PopStyleColor();
     tooltip(help);

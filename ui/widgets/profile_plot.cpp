@@ -37,8 +37,8 @@ struct Axes {
 };
 
 void drawGrid(ImDrawList& list, const Axes& axes) {
-    const ImU32 line = IM_COL32(255, 255, 255, 18);
-    const ImU32 text = IM_COL32(150, 156, 154, 255);
+    const ImU32 line = ImGui::GetColorU32(palette().grid);
+    const ImU32 text = ImGui::GetColorU32(palette().muted);
     ImGui::PushFont(font(Font::Small));
     const int first = static_cast<int>(std::floor(axes.topLog / kLn10));
     for (int decade = first; static_cast<float>(decade) * kLn10 > axes.bottomLog; decade -= 2) {
@@ -88,7 +88,7 @@ std::optional<KnotDrag> drawProfilePlot(const subedit::StoredProfile& profile, f
     axes.maxRadiusMm = profile.maxRadiusMm;
 
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(axes.low, axes.high, IM_COL32(19, 21, 22, 255), 4.0f);
+    list.AddRectFilled(axes.low, axes.high, ImGui::GetColorU32(palette().well), 4.0f);
     list.PushClipRect(axes.low, axes.high, true);
     drawGrid(list, axes);
     const float spacing = profile.maxRadiusMm / static_cast<float>(profile.segments);
@@ -128,7 +128,7 @@ std::optional<KnotDrag> drawProfilePlot(const subedit::StoredProfile& profile, f
     if (held >= 0 && held < static_cast<int>(profile.logProfile.size())) {
         const ImVec2 p = axes.at(spacing * static_cast<float>(held / 3),
                                  profile.logProfile[static_cast<std::size_t>(held)]);
-        list.AddCircle(p, 5.5f, IM_COL32(255, 255, 255, 220), 16, 1.5f);
+        list.AddCircle(p, 5.5f, ImGui::GetColorU32(palette().text), 16, 1.5f);
     }
     list.PopClipRect();
     if (isHovered || isActive) {

@@ -54,7 +54,7 @@ void drawProfilePair(Session& session) {
         list.PopClipRect();
         ImGui::PopFont();
         if (isPrimary) {
-            list.AddRect(at, end, ImGui::GetColorU32(colors::kAccent), rounding, 0, 1.5f);
+            list.AddRect(at, end, ImGui::GetColorU32(palette().accent), rounding, 0, 1.5f);
         }
     };
     swatch(session.paint.primary, "##primary", true);

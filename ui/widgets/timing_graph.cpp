@@ -30,7 +30,7 @@ void drawTimingGraph(const Viewport& viewport, float heightPx) {
     ImGui::InvisibleButton("##timings", {width, heightPx});
     const ImVec2 high(low.x + width, low.y + heightPx);
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(low, high, IM_COL32(19, 21, 22, 255), 4.0f);
+    list.AddRectFilled(low, high, ImGui::GetColorU32(palette().well), 4.0f);
     double most = 20.0;
     for (const Viewport::Timing& timing : viewport.timings()) {
         most = std::max(most, timing.totalMs);
@@ -62,7 +62,7 @@ void drawTimingGraph(const Viewport& viewport, float heightPx) {
     }
     list.PopClipRect();
     ImGui::PushFont(font(Font::Small));
-    list.AddText({low.x + 5.0f, low.y + 2.0f}, IM_COL32(150, 156, 154, 255),
+    list.AddText({low.x + 5.0f, low.y + 2.0f}, ImGui::GetColorU32(palette().muted),
                  fmt::format("{:.0f} ms", most).c_str());
     ImGui::PopFont();
     if (hovered != nullptr) {

@@ -1,0 +1,94 @@
+#include "tests/support/temporary_folder.h"
+#include "ui/preferences.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+
+namespace celadon::ui {
+namespace {
+
+TEST(KeyMap, EveryUsualKeyHasANameAndDoesOneThing) {
+    const KeyMap keys;
+    std::set<std::string> texts;
+    std::set<std::string> names;
+    std::size_t index = 0;
+    for (const ActionInfo& info : actionInfos()) {
+        EXPECT_EQ(static_cast<std::size_t>(info.action), index++) << info.name;
+        const std::string text = keys.text(info.action);
+        EXPECT_FALSE(text.empty()) << info.name;
+        EXPECT_TRUE(texts.insert(text).second) << text << " is used twice";
+        EXPECT_TRUE(names.insert(info.name).second) << info.name;
+        EXPECT_EQ(parseChord(text), info.usual) << text;
+        EXPECT_EQ(keys.find(info.usual), info.action) << text;
+    }
+    EXPECT_EQ(keys.find({GLFW_KEY_Y, GLFW_MOD_CONTROL}), Action::Redo);
+    EXPECT_EQ(keys.find({GLFW_KEY_Z, GLFW_MOD_CONTROL | GLFW_MOD_CAPS_LOCK}), Action::Undo);
+    EXPECT_FALSE(keys.find({GLFW_KEY_J, 0}));
+    EXPECT_FALSE(keys.find({}));
+}
+
+TEST(KeyMap, EveryActionIsInTheHelp) {
+    std::set<Action> helped;
+    for (const HelpLine& line : helpLines()) {
+        helped.insert(line.actions.begin(), line.actions.end());
+    }
+    EXPECT_EQ(helped.size(), actionInfos().size());
+}
+
+TEST(KeyMap, AKeyThatIsTakenIsLost) {
+    KeyMap keys;
+    keys.set(Action::Save, {GLFW_KEY_X, 0});
+    EXPECT_EQ(keys.find({GLFW_KEY_X, 0}), Action::Save);
+    EXPECT_EQ(keys.text(Action::Swap), "");
+    EXPECT_FALSE(keys.find({GLFW_KEY_S, GLFW_MOD_CONTROL}));
+    keys.set(Action::Play, {GLFW_KEY_Y, GLFW_MOD_CONTROL}); // the second way to redo
+    EXPECT_EQ(keys.find({GLFW_KEY_Y, GLFW_MOD_CONTROL}), Action::Play);
+    KeyMap same;
+    same.apply(keys.changes());
+    EXPECT_EQ(same, keys);
+}
+
+TEST(KeyMap, RubbishIsPassedOver) {
+    KeyMap keys;
+    keys.apply({{"undo", "Ctrl+"}, {"redo", "Hyper+Q"}, {"sing", "Q"}, {"save", "F99"}});
+    EXPECT_EQ(keys, KeyMap());
+    EXPECT_FALSE(parseChord("Ctrl+Ctrl+Z"));
+    EXPECT_EQ(parseChord(""), KeyChord{});
+}
+
+TEST(Preferences, WhatIsWrittenReadsBack) {
+    const test::TemporaryFolder folder;
+    const auto file = folder / "p.json";
+    Preferences preferences;
+    preferences.theme = Theme::Light;
+    preferences.uiScale = 1.5;
+    preferences.keys.set(Action::Undo, {GLFW_KEY_KP_ADD, GLFW_MOD_ALT});
+    preferences.keys.set(Action::Quit, {});
+    writePreferences(preferences, file);
+    const Preferences back = readPreferences(file);
+    EXPECT_EQ(back.theme, Theme::Light);
+    EXPECT_EQ(back.uiScale, 1.5);
+    EXPECT_EQ(back.keys, preferences.keys);
+    EXPECT_EQ(back.keys.text(Action::Undo), "Alt+Num +");
+}
+
+TEST(Preferences, WhatIsWrongTakesItsDefault) {
+    const test::TemporaryFolder folder;
+    const auto file = folder / "p.json";
+    for (const char* text : {R"({"theme": "pink", "keys": [1], "uiScale": -3, "autosave": 7})",
+                             R"({"theme": 1, "keys": {"undo": 5}})", "[]", "no JSON", ""}) {
+        std::ofstream(file) << text;
+        const Preferences read = readPreferences(file);
+        EXPECT_EQ(read.theme, Theme::Dark) << text;
+        EXPECT_EQ(read.keys, KeyMap()) << text;
+        EXPECT_EQ(read.uiScale, 0.0) << text;
+        EXPECT_TRUE(read.autosave) << text;
+    }
+}
+
+} // namespace
+} // namespace celadon::ui
