@@ -557,6 +557,7 @@ nlohmann::json Editor::state() const {
             {"modified", mSession.isModified()},
             {"asking", mFiles.isAsking()},
             {"problem", mFiles.problem()},
+            {"typing", ImGui::GetIO().WantTextInput},
             {"undo", mSession.undoTitle().has_value()},
             {"playing", mSession.motion.isPlaying},
             {"seconds", mSession.motion.now.seconds},

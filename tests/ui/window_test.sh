@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # The editor in a real window, by real mouse and key events:
-#   window_test.sh PROGRAM STROKE_REGION FOLDER
+#   window_test.sh PROGRAM STROKE_REGION DRIVER_RESET FOLDER
 # Waits on the editor's state file (--state), never on time alone. Exit code 77: cannot run here.
 set -u
 program=$1
 strokeRegion=$2
-folder=$3
+driverReset=$3
+folder=$4
 
 . "$(dirname "$0")/display.sh"
 open_display "$folder" 1000x700 xdotool
@@ -48,7 +49,7 @@ stroke() { # a short stroke across the middle of the viewport
 
 save_as() { # save_as FILE
     xdotool key ctrl+s
-    await 30 '"asking":true'
+    await 30 '"typing":true'
     xdotool type --delay 20 "$1"
     xdotool key Return
 }
@@ -115,7 +116,7 @@ kill -0 "$editor" || fail "Escape closed the editor"
 xdotool windowunmap "$window" windowmap "$window"
 printf 'v 0 0 0\nf 1 2 3\n' >"$folder/broken.obj"
 xdotool key ctrl+o
-await 30 '"asking":true'
+await 30 '"typing":true'
 xdotool type --delay 20 "$folder/broken.obj"
 xdotool key Return
 await 30 '"asking":true' # unsaved changes
@@ -147,6 +148,35 @@ await 5 '"modified":true'
 kill -9 "$editor"
 wait "$editor" 2>/dev/null
 editor=
+
+# The graphics driver is reset: the program ends, says why, and the work is there at the next start.
+rm -f "$folder"/state/celadon/*.journal "$folder/reset"
+export CELADON_DRIVER_RESET=$folder/reset
+LD_PRELOAD=$driverReset start
+stroke
+await 30 '"strokes":1'
+touch "$folder/reset"
+xdotool mousemove 300 300 mousemove 310 310
+wait "$editor"
+[ $? -eq 4 ] || fail "a reset of the driver did not end with 4"
+grep -q 'driver was reset' "$folder/stderr" || fail "nothing was said of the reset"
+rm "$folder/reset"
+start
+await 30 '"asking":true'
+xdotool key Return # Recover
+await 60 '"strokes":1'
+
+# No size at all, and back.
+window=$(xdotool search --onlyvisible --name Celadon | tail -1)
+xdotool windowsize "$window" 1 1
+sleep 0.5
+xdotool windowsize "$window" 900 600
+await 30 '"viewport":\[[0-9]*,[0-9]*,[1-9][0-9][0-9],'
+await 30 '"settled":true'
+kill -9 "$editor"
+wait "$editor" 2>/dev/null
+editor=
+rm -f "$folder"/state/celadon/*.journal
 
 # Broken files that are dropped, a turntable, an export: by replay.
 printf '%s\n' '{"command":"edit.fill"}' \

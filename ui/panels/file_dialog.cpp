@@ -195,13 +195,17 @@ void FileDialog::draw(float scale) {
         drawPlaces(scale);
         const float below = 3.4f * ImGui::GetFrameHeightWithSpacing();
         drawEntries(std::max(60.0f, ImGui::GetContentRegionAvail().y - below));
-        mAppears = false;
+        const bool isNew = std::exchange(mAppears, false);
         if (std::exchange(mTakesFocus, false)) {
             ImGui::SetKeyboardFocusHere();
         }
         ImGui::SetNextItemWidth(-1.0f);
-        const bool isEntered = ImGui::InputTextWithHint("##name", "File name or path", &mName,
-                                                        ImGuiInputTextFlags_EnterReturnsTrue);
+        ImGui::InputTextWithHint("##name", "File name or path", &mName);
+        const auto isPressed = [](ImGuiKey key) {
+            return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false);
+        };
+        const bool isEntered =
+            !isNew && (isPressed(ImGuiKey_Enter) || isPressed(ImGuiKey_KeyPadEnter));
         if (mProblem.empty()) {
             ImGui::NewLine();
         } else {
@@ -210,8 +214,8 @@ void FileDialog::draw(float scale) {
         const float width = 110.0f * scale;
         ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - 2.0f * width -
                              ImGui::GetStyle().ItemSpacing.x);
-        const bool isCancelled = ImGui::Button("Cancel", {width, 0.0f}) ||
-                                 ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+        const bool isCancelled =
+            ImGui::Button("Cancel", {width, 0.0f}) || isPressed(ImGuiKey_Escape);
         ImGui::SameLine();
         ImGui::PushStyleColor(ImGuiCol_Button, palette().accentDim);
         const bool isAccepted = ImGui::Button(mKind == Kind::Save ? "Save" : "Open", {width, 0.0f});
