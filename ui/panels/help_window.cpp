@@ -8,28 +8,57 @@
 #include <algorithm>
 #include <cstring>
 #include <string>
+#include <vector>
 
 namespace celadon::ui {
 
 namespace {
 
-constexpr float kKeysWidth = 15.0f; ///< in font sizes
+struct Row {
+    std::string keys;
+    const char* help;
+};
+struct Group {
+    const char* title;
+    std::vector<Row> rows;
+};
 
-void row(const char* keys, const char* help) {
-    const float width = ImGui::CalcTextSize(keys).x;
-    ImGui::TextColored(palette().accent, "%s", keys);
-    ImGui::SameLine(0.0f, std::max(kKeysWidth * ImGui::GetFontSize() - width, 4.0f));
-    ImGui::TextUnformatted(help);
+Group groupOf(const KeyMap& keys, const char* title) {
+    Group group{title, {}};
+    for (const HelpLine& line : helpLines()) {
+        if (std::strcmp(line.group, title) == 0) {
+            group.rows.push_back({keys.texts(line.actions), line.help});
+        }
+    }
+    return group;
 }
 
-void list(const KeyMap& keys, const char* group) {
-    heading(group);
-    for (const HelpLine& line : helpLines()) {
-        if (std::strcmp(line.group, group) != 0) {
-            continue;
-        }
-        row(keys.texts(line.actions).c_str(), line.help);
+Group mouseGroup() {
+    Group group{"Mouse", {}};
+    for (const MouseHelp& help : mouseHelp()) {
+        group.rows.push_back({help.keys, help.help});
     }
+    return group;
+}
+
+/// Groups below each other, keys in a column as wide as they need.
+void drawColumn(const std::vector<Group>& groups) {
+    float width = 0.0f;
+    for (const Group& group : groups) {
+        for (const Row& row : group.rows) {
+            width = std::max(width, ImGui::CalcTextSize(row.keys.c_str()).x);
+        }
+    }
+    ImGui::BeginGroup();
+    for (const Group& group : groups) {
+        heading(group.title);
+        for (const Row& row : group.rows) {
+            ImGui::TextColored(palette().accent, "%s", row.keys.c_str());
+            ImGui::SameLine(width + 1.5f * ImGui::GetFontSize());
+            ImGui::TextUnformatted(row.help);
+        }
+    }
+    ImGui::EndGroup();
 }
 
 } // namespace
@@ -47,23 +76,12 @@ void drawHelpWindow(const KeyMap& keys, bool& isShown, float scale) {
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                          ImGuiWindowFlags_NoResize | ImGuiWindowFlags_AlwaysAutoResize |
                          ImGuiWindowFlags_NoSavedSettings)) {
-        const bool isWide = display.x > 900.0f * scale;
-        ImGui::BeginGroup();
-        list(keys, "Paint");
-        list(keys, "Files");
-        ImGui::EndGroup();
+        const bool isWide = display.x > 940.0f * scale;
+        drawColumn({groupOf(keys, "Paint"), groupOf(keys, "Files"), groupOf(keys, "Window")});
         if (isWide) {
             ImGui::SameLine(0.0f, 36.0f * scale);
         }
-        ImGui::BeginGroup();
-        heading("Mouse");
-        for (const MouseHelp& help : mouseHelp()) {
-            row(help.keys, help.help);
-        }
-        list(keys, "View");
-        list(keys, "Motion");
-        list(keys, "Window");
-        ImGui::EndGroup();
+        drawColumn({mouseGroup(), groupOf(keys, "View"), groupOf(keys, "Motion")});
     }
     ImGui::End();
     ImGui::PopStyleVar(2);

@@ -15,7 +15,8 @@ namespace {
 /// A list of actions; a click on a key asks for another one.
 bool drawKeys(KeyMap& keys, std::optional<Action>& keyWantedFor, float scale) {
     heading("Keys");
-    if (ImGui::BeginChild("##keys", {0.0f, 170.0f * scale}, true)) {
+    const float height = std::min(170.0f * scale, 0.22f * ImGui::GetIO().DisplaySize.y);
+    if (ImGui::BeginChild("##keys", {0.0f, height}, true)) {
         for (const ActionInfo& info : actionInfos()) {
             ImGui::PushID(info.name);
             ImGui::AlignTextToFramePadding();
@@ -63,10 +64,12 @@ bool drawPreferencesWindow(Preferences& preferences, bool& isShown,
     bool isChanged = false;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({std::min(460.0f * scale, 0.95f * display.x), 0.0f});
+    const float width = std::min(460.0f * scale, 0.95f * display.x);
+    ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, display.y});
     if (ImGui::Begin("Preferences", &isShown,
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
-                         ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings)) {
+                         ImGuiWindowFlags_NoResize | ImGuiWindowFlags_AlwaysAutoResize |
+                         ImGuiWindowFlags_NoSavedSettings)) {
         heading("Theme");
         constexpr std::array<const char*, 3> kThemes{"Dark", "Gray", "Light"};
         constexpr std::array<const char*, 3> kThemeHelps{"Calm", "Neutral, to judge colors by",
