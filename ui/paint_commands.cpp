@@ -89,6 +89,11 @@ void Session::tell(const subedit::EditReport& report) {
     }
 }
 
+subedit::Mirror Session::mirror() const {
+    return {{paint.mirror[0], paint.mirror[1], paint.mirror[2]},
+            glm::vec3(mWorld->scatteringSphere.center)};
+}
+
 void Session::beginStroke(int material, const subedit::StrokePoint& point, bool inverted) {
     subedit::Document* const target = document(material);
     if (target == nullptr || isStrokeOpen()) {
@@ -96,10 +101,7 @@ void Session::beginStroke(int material, const subedit::StrokePoint& point, bool 
     }
     activeMaterial = material;
     mStrokeMaterial = material;
-    mStrokeMirror = {};
-    mStrokeMirror.axes = {paint.mirror[0], paint.mirror[1], paint.mirror[2]};
-    mStrokeMirror.centerMm = glm::vec3(mWorld->scatteringSphere.center);
-    mStroke = {makeOperator(paint, inverted), paint.brush, mStrokeMirror, {point}};
+    mStroke = {makeOperator(paint, inverted), paint.brush, mirror(), {point}};
     mStrokeInverted = inverted;
     mStrokeSelects = paint.tool == Tool::Select;
     mStrokeIsLive = !mStrokeSelects && subedit::isLocal(mStroke.op);

@@ -96,6 +96,8 @@ public:
     /// An edit of the active material by the tool in hand, recorded as what it came to.
     /// @throws celadon::Error
     void edit(const subedit::EditCommand& command);
+    /// On which sides of the object strokes, scribbles and stamps are repeated.
+    [[nodiscard]] subedit::Mirror mirror() const;
     /// A stroke as it happens. Its end is the command that a replay repeats.
     void beginStroke(int material, const subedit::StrokePoint& point, bool inverted);
     void addStrokePoint(const subedit::StrokePoint& point);
@@ -182,7 +184,6 @@ private:
     std::vector<std::unique_ptr<subedit::Document>> mDocuments;
     int mStrokeMaterial = -1; ///< of the open stroke
     subedit::StrokeCommand mStroke;
-    subedit::Mirror mStrokeMirror;
     bool mStrokeInverted = false;
     bool mStrokeSelects = false; ///< its paint is selection
     bool mStrokeIsLive = false;  ///< the material follows; else all is done at the end

@@ -87,6 +87,7 @@ void addScribbles(Session& session) {
             subedit::Scribble scribble;
             scribble.brush = session.paint.brush;
             scribble.path = pathOf(a);
+            scribble.mirror = session.mirror();
             scribble.strength = static_cast<float>(a.numberWithin("strength", 0.0, 1.0));
             if (scribble.path.empty()) {
                 throw UsageError("scribble", "has no points");
@@ -144,6 +145,7 @@ void addStamps(Session& session) {
             stamp.width = image.width;
             stamp.height = image.height;
             stamp.weights = image.weights;
+            stamp.mirror = session.mirror();
             session.edit(subedit::StampCommand{
                 makeOperator(session.paint, a.flag("inverted", false)), std::move(stamp)});
         },

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kDegreesPerWidth = 220.0; ///< a drag across the viewport's height turns so far
 constexpr double kZoomPerNotch = 0.88;
-constexpr double kGizmoReachPx = 14.0;
+constexpr double kGizmoReachPx = 14.0; ///< at a scale of 1
 
 } // namespace
 
@@ -27,7 +27,7 @@ int ViewportTools::lightAt(glm::dvec2 positionPx, const ViewportRect& rect) cons
         const glm::dvec3 at =
             gizmoPosition(mSession.rig.lights[i].light, mSession.world().scatteringSphere);
         if (projected(mSession.camera, at, rect.aspect()).z > 0.0 &&
-            glm::distance(seenAt(mSession.camera, at, rect), positionPx) < kGizmoReachPx) {
+            glm::distance(seenAt(mSession.camera, at, rect), positionPx) < kGizmoReachPx * mScale) {
             return static_cast<int>(i);
         }
     }
@@ -36,7 +36,7 @@ int ViewportTools::lightAt(glm::dvec2 positionPx, const ViewportRect& rect) cons
 
 int ViewportTools::controlAt(glm::dvec2 positionPx, const ViewportRect& rect) const {
     int nearest = -1;
-    double closest = kGizmoReachPx;
+    double closest = kGizmoReachPx * mScale;
     for (const DeformControl& control : shownControls(mSession)) {
         const double distance =
             glm::distance(seenAt(mSession.camera, control.shownMm, rect), positionPx);
@@ -478,6 +478,7 @@ std::string ViewportTools::hint() const {
 }
 
 void ViewportTools::drawOverlay(ImDrawList& list, const ViewportRect& rect, float scale) {
+    mScale = static_cast<double>(scale);
     drawViewportOverlay(list, mSession, mPicker, brushPlace(rect), rect, scale);
 }
 

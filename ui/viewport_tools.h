@@ -75,7 +75,8 @@ private:
     Drag mDrag = Drag::None;
     int mButton = -1;
     int mLight = -1;
-    int mControl = -1;             ///< of the chosen deformer, that is dragged
+    double mScale = 1.0; ///< of the interface: gizmos are caught as far off as they are seen
+    int mControl = -1;   ///< of the chosen deformer, that is dragged
     bool mHasMovedControl = false; ///< by this drag
     glm::dvec2 mLast{0.0};
     glm::dvec3 mPivot{0.0};

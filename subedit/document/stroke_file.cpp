@@ -303,6 +303,7 @@ private:
             in.fail("weights", "are not two hexadecimal digits for each pixel");
         }
         result.weights = std::move(*weights);
+        result.mirror = mirror(in);
         return result;
     }
 
@@ -417,10 +418,7 @@ json toJson(const Brush& brush) {
             {"spacing", wide(brush.spacing)}};
 }
 
-/// Brush, mirror and path, as members of `out`.
-void addStroke(json& out, const Brush& brush, const Mirror& mirror,
-               const std::vector<StrokePoint>& path) {
-    out["brush"] = toJson(brush);
+void addMirror(json& out, const Mirror& mirror) {
     if (mirror != Mirror{}) {
         std::string axes;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -428,6 +426,13 @@ void addStroke(json& out, const Brush& brush, const Mirror& mirror,
         }
         out["mirror"] = {{"axes", axes}, {"centerMm", toJson(mirror.centerMm)}};
     }
+}
+
+/// Brush, mirror and path, as members of `out`.
+void addStroke(json& out, const Brush& brush, const Mirror& mirror,
+               const std::vector<StrokePoint>& path) {
+    out["brush"] = toJson(brush);
+    addMirror(out, mirror);
     json points = json::array();
     for (const StrokePoint& point : path) {
         points.push_back(toJson(point, true));
@@ -538,6 +543,7 @@ struct CommandWriter {
         out["angleDegrees"] = wide(c.stamp.angleDegrees);
         out["pixels"] = json::array({c.stamp.width, c.stamp.height});
         out["weights"] = hexText(c.stamp.weights);
+        addMirror(out, c.stamp.mirror);
     }
     void operator()(const SelectCommand& c) const {
         out["command"] = "select";

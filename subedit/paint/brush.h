@@ -4,7 +4,9 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 /// What a stroke is made of: a brush and the points that it passed.
 namespace celadon::subedit {
@@ -33,5 +35,29 @@ struct Mirror {
     glm::vec3 centerMm{0.0f};
     bool operator==(const Mirror&) const = default;
 };
+
+/// Signs of the coordinates about the center: (1, 1, 1) first, then each side that is mirrored.
+[[nodiscard]] inline std::vector<glm::vec3> mirroredSides(const Mirror& mirror) {
+    std::vector<glm::vec3> sides{glm::vec3(1.0f)};
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t count = mirror.axes[static_cast<std::size_t>(axis)] ? sides.size() : 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            glm::vec3 other = sides[i];
+            other[axis] = -1.0f;
+            sides.push_back(other);
+        }
+    }
+    return sides;
+}
+
+/// A place on such a side.
+[[nodiscard]] inline glm::vec3 mirrored(const Mirror& mirror, const glm::vec3& signs,
+                                        glm::vec3 positionMm) {
+    for (int axis = 0; axis < 3; ++axis) {
+        positionMm[axis] =
+            signs[axis] < 0.0f ? 2.0f * mirror.centerMm[axis] - positionMm[axis] : positionMm[axis];
+    }
+    return positionMm;
+}
 
 } // namespace celadon::subedit

@@ -47,6 +47,7 @@ StrokeMask::StrokeMask(const Surface& surface, const Brush& brush, const Mirror&
     : mSurface(surface),
       mBrush(brush),
       mMirror(mirror),
+      mSides(mirroredSides(mirror)),
       mTiles((surface.texelCount() + kTileTexels - 1) / kTileTexels),
       mVisited(surface.texelCount() / 64 + 1) {
     CELADON_ASSERT(brush.radiusMm > 0.0f && brush.spacing > 0.0f);
@@ -154,20 +155,8 @@ void StrokeMask::add(const StrokePoint& given) {
 }
 
 void StrokeMask::addMirrored(const Dab& dab) {
-    for (unsigned sides = 0; sides < 8; ++sides) {
-        Dab mirrored = dab;
-        bool isWanted = true;
-        for (int axis = 0; axis < 3; ++axis) {
-            if ((sides >> axis & 1u) == 0) {
-                continue;
-            }
-            isWanted = isWanted && mMirror.axes[static_cast<std::size_t>(axis)];
-            mirrored.centerMm[axis] = 2.0f * mMirror.centerMm[axis] - mirrored.centerMm[axis];
-            mirrored.normal[axis] = -mirrored.normal[axis];
-        }
-        if (isWanted) {
-            addDab(mirrored);
-        }
+    for (const glm::vec3& signs : mSides) {
+        addDab({mirrored(mMirror, signs, dab.centerMm), signs * dab.normal, dab.flow});
     }
 }
 

@@ -57,6 +57,7 @@ private:
     const Surface& mSurface;
     Brush mBrush;
     Mirror mMirror;
+    std::vector<glm::vec3> mSides;
     std::vector<std::unique_ptr<Tile>> mTiles;
     std::vector<Texel> mChanged;
     std::uint32_t mChangeRound = 1;

@@ -65,15 +65,26 @@ WeightMask stampMask(const Surface& surface, const Stamp& stamp) {
     if (!middle) {
         return mask;
     }
-    // One hard dab finds what the surface connects with the middle.
-    StrokeMask reached(surface, {.radiusMm = reachMm, .hardness = 1.0f});
-    reached.add(*middle);
     const Frame frame = frameAt(middle->normal, stamp.angleDegrees);
-    for (const Surface::Texel texel : reached.takeChanged()) {
-        const glm::vec3 d = surface.positionMm(texel) - middle->positionMm;
-        const glm::vec2 place =
-            halfPx + glm::vec2(glm::dot(d, frame.right), -glm::dot(d, frame.up)) / pixelMm;
-        mask.set(std::size_t{texel}, weightFromFloat(reached.weight(texel) * sample(stamp, place)));
+    for (const glm::vec3& signs : mirroredSides(stamp.mirror)) {
+        StrokePoint there = *middle;
+        there.positionMm = mirrored(stamp.mirror, signs, middle->positionMm);
+        there.normal = signs * middle->normal;
+        const auto onSurface = StrokeMask::resolve(surface, there, reachMm);
+        if (!onSurface) {
+            continue; // the object is not alike there
+        }
+        // One hard dab finds what the surface connects with the middle.
+        StrokeMask reached(surface, {.radiusMm = reachMm, .hardness = 1.0f});
+        reached.add(*onSurface);
+        for (const Surface::Texel texel : reached.takeChanged()) {
+            const glm::vec3 d = signs * (surface.positionMm(texel) - onSurface->positionMm);
+            const glm::vec2 place =
+                halfPx + glm::vec2(glm::dot(d, frame.right), -glm::dot(d, frame.up)) / pixelMm;
+            const WeightMask::Weight weight =
+                weightFromFloat(reached.weight(texel) * sample(stamp, place));
+            mask.set(std::size_t{texel}, std::max(weight, mask.at(std::size_t{texel})));
+        }
     }
     repeatInGutters(surface, mask);
     return mask;

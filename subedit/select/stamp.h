@@ -19,6 +19,7 @@ struct Stamp {
     int width = 0;             ///< pixels, 1 to kLargestStamp
     int height = 0;
     std::vector<std::uint8_t> weights; ///< [height][width], top row first; 255: all of the edit
+    Mirror mirror;                     ///< on these sides its mirror image as well
     bool operator==(const Stamp&) const = default;
 };
 

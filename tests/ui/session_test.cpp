@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <memory>
 
@@ -215,6 +217,37 @@ TEST_F(SessionTest, StampFollowsItsPictureAndReachesNoFarther) {
     EXPECT_GT(left, 200u);
     session.execute({"edit.undo"});
     EXPECT_EQ(map().logProfile, before);
+}
+
+TEST_F(SessionTest, MirroredStampIsTheMirrorImage) {
+    const test::TemporaryFolder folder;
+    session.execute({"stamp.open", {{"file", writeHalfWhite(folder / "half.png").string()}}});
+    session.execute({"brush.change", {{"radius", 4.0}}});
+    session.execute({"brush.mirror", {{"x", true}}});
+    session.execute({"operator.change", {{"name", "scale-albedo"}}});
+    const std::vector<float> before = map().logProfile;
+    const glm::vec3 n(0.6f, 0.0f, 0.8f);
+    session.execute({"stamp.place", placeAt(session, n)});
+    const subedit::Surface& surface = session.activeDocument()->surface();
+    const std::size_t values = static_cast<std::size_t>(map().knots()) * 3;
+    const glm::vec3 center(session.world().scatteringSphere.center);
+    const glm::vec3 right(0.8f, 0.0f, -0.6f); // seen from outside
+    std::array<std::size_t, 2> count{};
+    for (const subedit::Surface::Texel texel : surface.coveredTexels()) {
+        if (std::memcmp(&before[texel * values], &map().logProfile[texel * values],
+                        values * sizeof(float)) == 0) {
+            continue;
+        }
+        const glm::vec3 p = surface.positionMm(texel) - center;
+        const float along = glm::dot(glm::vec3(std::abs(p.x), p.y, p.z) - 20.0f * n, right);
+        EXPECT_LT(along, 0.51f) << "the left half, on both sides";
+        EXPECT_GT(along, -4.51f);
+        ++count[p.x < 0.0f ? 1 : 0];
+    }
+    EXPECT_GT(count[0], 200u);
+    EXPECT_NEAR(static_cast<double>(count[1]) / static_cast<double>(count[0]), 1.0, 0.1);
+    session.execute({"edit.undo"});
+    EXPECT_EQ(map().logProfile, before) << "one step";
 }
 
 TEST_F(SessionTest, ScribblesSpreadToWhatResemblesThem) {

@@ -40,8 +40,14 @@ StrokeFile everything() {
         file.commands.push_back(ApplyCommand{op});
         file.commands.push_back(StrokeCommand{op, brush, mirror, {a, b}});
         file.commands.push_back(PropagateCommand{op, propagation});
-        file.commands.push_back(
-            StampCommand{op, {place, 12.3f, -33.3f, 3, 2, {0, 1, 127, 128, 254, 255}}});
+        file.commands.push_back(StampCommand{op,
+                                             {place,
+                                              12.3f,
+                                              -33.3f,
+                                              3,
+                                              2,
+                                              {0, 1, 127, 128, 254, 255},
+                                              {{true, false, true}, {1.0f, 2.0f, 0.1f}}}});
     }
     for (const SelectionStep& step : std::vector<SelectionStep>{
              SelectAll{}, SelectNone{}, InvertSelection{}, GrowSelection{0.1f},
