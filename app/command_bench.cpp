@@ -94,7 +94,8 @@ BenchDocument runTable(const gl::Context& context, const BenchCommand& command,
         options.truthBlocks = 25;
     } else {
         options.surfaceTruth = command.surfaceTruth;
-        options.budget.secondsAMethod = 3; // all of it within two minutes on two cores
+        options.size = {320, 240}; // all of it within two minutes on two cores
+        options.budget.secondsAMethod = 2;
     }
     options.size = command.size.value_or(options.size);
     options.truthBlocks = command.truthBlocks.value_or(options.truthBlocks);
