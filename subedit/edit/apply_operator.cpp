@@ -88,9 +88,8 @@ struct OperatorVisitor {
     }
 
     void operator()(const ScaleRange& op) const {
-        scaleRange({fastExp(weight * std::log(op.factor.x)),
-                    fastExp(weight * std::log(op.factor.y)),
-                    fastExp(weight * std::log(op.factor.z))});
+        scaleRange({fastExp(weight * fastLog(op.factor.x)), fastExp(weight * fastLog(op.factor.y)),
+                    fastExp(weight * fastLog(op.factor.z))});
     }
 
     void operator()(const SetRange& op) const {

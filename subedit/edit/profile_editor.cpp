@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 namespace celadon::subedit {
@@ -62,16 +63,20 @@ void solveFirstKnots(Lanes& l0, const Lanes& l1, const Lanes& logEnergy) {
     }
 }
 
-constexpr std::size_t kLargestValues = (kMaxSegments + 1) * 3;
+constexpr std::size_t kPattern = 24; ///< values: whole vectors, and whole knots
+constexpr std::size_t kLargestValues =
+    ((kMaxSegments + 1) * 3 + kPattern - 1) / kPattern * kPattern;
 using PerValue = std::array<float, kLargestValues>;
 
-/// One value per channel, over all values of a profile.
+/// One value per channel, over all values of a profile; some more are written.
 void repeat(const glm::vec3& channels, int count, PerValue& values) {
-    for (int i = 0; i < count; i += 3) {
-        const auto k = static_cast<std::size_t>(i);
-        values[k] = channels.x;
-        values[k + 1] = channels.y;
-        values[k + 2] = channels.z;
+    for (std::size_t i = 0; i < kPattern; i += 3) {
+        values[i] = channels.x;
+        values[i + 1] = channels.y;
+        values[i + 2] = channels.z;
+    }
+    for (std::size_t i = kPattern; i < static_cast<std::size_t>(count); i += kPattern) {
+        std::memcpy(values.data() + i, values.data(), kPattern * sizeof(float));
     }
 }
 
