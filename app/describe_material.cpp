@@ -5,6 +5,7 @@
 #include "subedit/map/shipped_materials.h"
 #include "subedit/medium.h"
 #include "subedit/radius_map.h"
+#include "subedit/texel_energy.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -20,7 +21,6 @@ namespace {
 using namespace subedit;
 
 constexpr float kCutEnergy = 0.01f;
-constexpr float kBlackAlbedo = 1e-6f;
 constexpr int kFewSegments = 8; ///< with fewer, the last one holds much in any case
 
 /// Least and greatest of per-texel values, by channel or alone.

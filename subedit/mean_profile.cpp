@@ -21,7 +21,6 @@ constexpr int kSamples = kMeanProfileIntervals + 1;
 constexpr int kLanes = 8;
 constexpr int kPadded = (kSamples + kLanes - 1) / kLanes * kLanes;
 using SampleArray = std::array<float, kPadded>;
-using Eight = float __attribute__((vector_size(32))); // GCC and Clang alike
 
 /// Integral of P r dr over [start, start + width] for P linear from p0 to p1.
 double linearEnergy(double p0, double p1, double start, double width) {

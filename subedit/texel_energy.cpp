@@ -45,8 +45,6 @@ CELADON_MULTIVERSION void computeEnergies(const float* __restrict logProfile, in
     }
 }
 
-using Eight = float __attribute__((vector_size(32))); // GCC and Clang alike
-
 /// Sums over the segments of each channel, eight segments side by side: one sum after the other
 /// would each wait for the one before.
 CELADON_MULTIVERSION void addUpChannels(const float* __restrict energy, int count,

@@ -85,7 +85,7 @@ bool Session::advanceTime(double clockSeconds) {
 }
 
 void Session::followAnimation() {
-    if (!mWorld->rig || mWorld->rig->animations.empty()) {
+    if (!mWorld->rig || (mWorld->cameras.empty() && mWorld->lights.empty())) {
         return;
     }
     const Viewpoints now = mMover->viewpointsAt(motion.now.seconds);

@@ -15,7 +15,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <random>
 #include <sys/resource.h>
 
@@ -30,15 +29,6 @@ using test::TemporaryFolder;
 int variants(int usual) {
     const char* const wanted = std::getenv("CELADON_MUTATIONS");
     return wanted != nullptr ? std::atoi(wanted) : usual;
-}
-
-std::string contentOf(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-void write(const std::filesystem::path& file, const std::string& content) {
-    std::ofstream(file, std::ios::binary) << content;
 }
 
 /// Flipped bytes, a cut, a part that is repeated or left out, or a number that is another.
@@ -80,13 +70,13 @@ std::string mutated(std::string content, bool isText, std::mt19937& random) {
 /// Reads each mutant of a file with `read`; both outcomes have to occur.
 template<typename Read>
 void tryMutants(const std::filesystem::path& file, bool isText, int count, const Read& read) {
-    const std::string whole = contentOf(file);
+    const std::string whole = test::readText(file);
     ASSERT_FALSE(whole.empty());
     ASSERT_NO_THROW(read()) << "the file as it should be";
     std::mt19937 random(4711);
     int refused = 0;
     for (int i = 0; i < variants(count); ++i) {
-        write(file, mutated(whole, isText, random));
+        test::writeText(file, mutated(whole, isText, random));
         try {
             read();
         } catch (const InputError& error) {
@@ -136,22 +126,23 @@ TEST(MutatedFiles, RangeTables) {
         content.T.push_back(std::exp2(0.5 * i));
         content.minimalRadius.push_back(0.04 * i);
     }
-    write(table, subedit::tableCsv(content));
+    test::writeText(table, subedit::tableCsv(content));
     tryMutants(table, true, 400, [&] { static_cast<void>(subedit::readTable(table)); });
 }
 
 TEST(MutatedFiles, MeasuredProfiles) {
     const TemporaryFolder folder;
     const auto file = folder / "p.csv";
-    write(file, "r_mm,R,G,B\n0,1,0.5,0.25\n0.5,0.3,0.2,0.1\n1.5,0.1,0.05,0.02\n4,1e-3,1e-3,1e-4\n");
+    test::writeText(
+        file, "r_mm,R,G,B\n0,1,0.5,0.25\n0.5,0.3,0.2,0.1\n1.5,0.1,0.05,0.02\n4,1e-3,1e-3,1e-4\n");
     tryMutants(file, true, 600, [&] { static_cast<void>(subedit::readProfileCsv(file)); });
 }
 
 TEST(MutatedFiles, MeasuredResponses) {
     const TemporaryFolder folder;
     const auto file = folder / "r.csv";
-    write(file, "u_in,v_in,u_out,v_out,r_mm,R,G,B\n0.1,0.2,0.3,0.4,2,0.1,0.05,0.02\n"
-                "0.5,0.5,0.6,0.5,1,0.2,0.1,0.05\n");
+    test::writeText(file, "u_in,v_in,u_out,v_out,r_mm,R,G,B\n0.1,0.2,0.3,0.4,2,0.1,0.05,0.02\n"
+                          "0.5,0.5,0.6,0.5,1,0.2,0.1,0.05\n");
     tryMutants(file, true, 600,
                [&] { static_cast<void>(parseResponseCsv(readTextFile(file), "'r.csv'")); });
 }
@@ -159,7 +150,7 @@ TEST(MutatedFiles, MeasuredResponses) {
 TEST(MutatedFiles, Strokes) {
     const TemporaryFolder folder;
     const auto file = folder / "s.json";
-    write(file, R"({"format": "celadon-strokes", "version": 1,
+    test::writeText(file, R"({"format": "celadon-strokes", "version": 1,
         "surface": {"flatWidthMm": 100, "texels": [64, 64]}, "commands": [
         {"command": "stroke", "operator": {"name": "scale-albedo", "factor": [0.5, 0.5, 0.5]},
          "brush": {"radiusMm": 4, "hardness": 0.5}, "path": [{"positionMm": [1, 2, 3],
@@ -175,7 +166,7 @@ TEST(MutatedFiles, Strokes) {
 TEST(MutatedFiles, Deformers) {
     const TemporaryFolder folder;
     const auto file = folder / "d.json";
-    write(file, R"({"deformers": [
+    test::writeText(file, R"({"deformers": [
         {"type": "twist", "axis": "y", "angleDegrees": 90, "range": [0.2, 1]},
         {"type": "bend", "axis": "y", "angleDegrees": {"times": [0, 2], "values": [0, 60], "interpolation": "cubic"}},
         {"type": "lattice", "size": [3, 3, 3], "moves": [{"point": [1, 2, 1], "by": [0, 0.2, 0]}]},

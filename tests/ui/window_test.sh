@@ -39,6 +39,19 @@ start() { # start ARGUMENTS: until the first picture is there
     await 60 '"rung":[0-9]'
 }
 
+kill_editor() { # nothing is said or saved
+    kill -9 "$editor"
+    wait "$editor" 2>/dev/null
+    editor=
+}
+
+recover() { # recover STROKES: what the last process left, at the next start
+    start
+    await 30 '"asking":true'
+    xdotool key Return # Recover
+    await 60 "\"strokes\":$1"
+}
+
 stroke() { # a short stroke across the middle of the viewport
     xdotool mousemove 250 300 mousedown 1
     for x in 255 262 270 280 292 305; do
@@ -91,13 +104,9 @@ start
 stroke
 await 30 '"strokes":1'
 xdotool mousemove 250 330 mousedown 1 mousemove 270 330
-kill -9 "$editor"
-wait "$editor" 2>/dev/null
+kill_editor
 xdotool mouseup 1
-start
-await 30 '"asking":true'
-xdotool key Return # Recover
-await 60 '"strokes":1'
+recover 1
 await 30 '"modified":true'
 
 # Unsaved changes are asked about; a small window and a broken file do no harm.
@@ -124,9 +133,7 @@ xdotool key Tab Tab
 xdotool key Escape
 await 30 '"asking":false'
 await 30 '"strokes":1'
-kill -9 "$editor"
-wait "$editor" 2>/dev/null
-editor=
+kill_editor
 rm -f "$folder"/state/celadon/*.journal
 
 # A full disk (a limit on the size of files, which fails alike): a notice, and nothing is lost.
@@ -145,9 +152,7 @@ await 30 '"asking":false'
 await 30 'full.subedit.exr'
 await 5 '"modified":true'
 [ -e "$folder/full.subedit.exr" ] && fail "half a file was left behind"
-kill -9 "$editor"
-wait "$editor" 2>/dev/null
-editor=
+kill_editor
 
 # The graphics driver is reset: the program ends, says why, and the work is there at the next start.
 rm -f "$folder"/state/celadon/*.journal "$folder/reset"
@@ -161,10 +166,7 @@ wait "$editor"
 [ $? -eq 4 ] || fail "a reset of the driver did not end with 4"
 grep -q 'driver was reset' "$folder/stderr" || fail "nothing was said of the reset"
 rm "$folder/reset"
-start
-await 30 '"asking":true'
-xdotool key Return # Recover
-await 60 '"strokes":1'
+recover 1
 
 # No size at all, and back.
 window=$(xdotool search --onlyvisible --name Celadon | tail -1)
@@ -173,9 +175,7 @@ sleep 0.5
 xdotool windowsize "$window" 900 600
 await 30 '"viewport":\[[0-9]*,[0-9]*,[1-9][0-9][0-9],'
 await 30 '"settled":true'
-kill -9 "$editor"
-wait "$editor" 2>/dev/null
-editor=
+kill_editor
 rm -f "$folder"/state/celadon/*.journal
 
 # Broken files that are dropped, a turntable, an export: by replay.
@@ -211,12 +211,8 @@ await 30 '"modified":false'
 cmp -s "$folder/opened.subedit.exr" "$folder/exported.subedit.exr" && fail "the stroke was not saved"
 stroke
 await 30 '"strokes":2'
-kill -9 "$editor"
-wait "$editor" 2>/dev/null
-start
-await 30 '"asking":true'
-xdotool key Return # Recover
-await 60 '"strokes":2'
+kill_editor
+recover 2
 xdotool key ctrl+z ctrl+z
 await 30 '"strokes":0'
 save_as "$folder/undone.subedit.exr"

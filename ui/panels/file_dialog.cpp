@@ -222,7 +222,7 @@ void FileDialog::draw(float scale) {
         ImGui::PopStyleColor();
         if (isEntered || isAccepted) {
             choose();
-            mTakesFocus = true; // for as long as it asks, Enter answers
+            mTakesFocus = true; // where it asks once more, the name can be typed at once
         } else if (isCancelled) {
             mIsOpen = false;
         }
