@@ -9,30 +9,32 @@
 #include <random>
 #include <string>
 
-// What painting costs on a map of 1024 x 1024 texels and 24 segments:
+// What painting costs on a map of 1024 x 1024 texels and 24 segments, and tables made anew:
 //     build/release/tests/subedit/document/edit_benchmark
 namespace celadon::subedit {
 namespace {
 
 constexpr int kSize = 1024;
 
-const MaterialMap& material() {
-    static const MaterialMap map = [] {
-        AppearanceMap appearance;
-        appearance.width = appearance.height = kSize;
-        for (int y = 0; y < kSize; ++y) {
-            for (int x = 0; x < kSize; ++x) {
-                const float wave = std::sin(0.05f * static_cast<float>(x)) *
-                                   std::cos(0.03f * static_cast<float>(y));
-                appearance.albedo.emplace_back(0.8f + 0.1f * wave, 0.6f, 0.5f - 0.2f * wave);
-                appearance.effectiveRadius.emplace_back(6.0f + 2.0f * wave, 4.0f, 2.0f + wave);
-            }
+MaterialMap materialOf(int size) {
+    AppearanceMap appearance;
+    appearance.width = appearance.height = size;
+    for (int y = 0; y < size; ++y) {
+        for (int x = 0; x < size; ++x) {
+            const float wave =
+                std::sin(0.05f * static_cast<float>(x)) * std::cos(0.03f * static_cast<float>(y));
+            appearance.albedo.emplace_back(0.8f + 0.1f * wave, 0.6f, 0.5f - 0.2f * wave);
+            appearance.effectiveRadius.emplace_back(6.0f + 2.0f * wave, 4.0f, 2.0f + wave);
         }
-        BakeSettings settings;
-        settings.segments = 24;
-        settings.maxRadiusMm = 40.0;
-        return bakeAppearance(appearance, settings);
-    }();
+    }
+    BakeSettings settings;
+    settings.segments = 24;
+    settings.maxRadiusMm = 40.0;
+    return bakeAppearance(appearance, settings);
+}
+
+const MaterialMap& material() {
+    static const MaterialMap map = materialOf(kSize);
     return map;
 }
 
@@ -93,13 +95,20 @@ BENCHMARK(dab)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
 
+/// All tables of a map just opened, as large on a side as the argument says.
 void tablesAnew(benchmark::State& state) {
+    const MaterialMap map = materialOf(static_cast<int>(state.range(0)));
     for (auto _ : state) {
-        EditTables tables(material());
+        EditTables tables(map);
         benchmark::DoNotOptimize(tables.rangeTable().values().data());
     }
 }
-BENCHMARK(tablesAnew)->Iterations(3)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(tablesAnew)
+    ->Arg(512)
+    ->Arg(1024)
+    ->Iterations(5)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 
 /// Of the process so far, or now, MB.
 double memoryMb(const std::string& field) {
