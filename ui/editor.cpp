@@ -216,9 +216,13 @@ void Editor::setActions() {
     mActions.togglePlay = [this] { togglePlay(); };
     mActions.toggleTurntable = [this] { mLayout.isTurning = !mLayout.isTurning; };
     mActions.quit = [this] { mFiles.guard([this] { mShouldClose = true; }); };
-    mWindow.setTheme(mPreferences.theme);
-    mActions.preferencesChanged = [this] {
+    const auto apply = [this] {
         mWindow.setTheme(mPreferences.theme);
+        mSession.setHistoryBytes(static_cast<std::size_t>(mPreferences.undoMegabytes * 1048576.0));
+    };
+    apply();
+    mActions.preferencesChanged = [this, apply] {
+        apply();
         if (mPreferences.uiScale > 0.0) {
             mWindow.setScale(static_cast<float>(mPreferences.uiScale));
         }

@@ -167,9 +167,15 @@ void addPaintCommands(Session& session) {
     commands.add("edit.undo", "Takes back the last change of the material or of the deformers",
                  [&session](const Arguments&) {
                      refuseDuringStroke(session);
-                     if (!session.undoMotion() &&
-                         documentOf(session, session.activeMaterial).undo()) {
+                     if (session.undoMotion()) {
+                         return;
+                     }
+                     subedit::Document& document = documentOf(session, session.activeMaterial);
+                     if (document.undo()) {
                          session.touchMaterial();
+                     } else if (document.commandCount() > 0) {
+                         throw UsageError("undo", "older steps are forgotten: the preferences say "
+                                                  "how much memory undoing may take");
                      }
                  });
     commands.add("edit.redo", "Repeats what was taken back", [&session](const Arguments&) {

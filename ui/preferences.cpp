@@ -72,6 +72,8 @@ Preferences readPreferences(const std::filesystem::path& file) {
     preferences.uiScale = number(object, "uiScale", 0.5, 4.0, 0.0);
     preferences.frameBudgetMs =
         number(object, "frameBudgetMs", 10.0, 1000.0, preferences.frameBudgetMs);
+    preferences.undoMegabytes =
+        number(object, "undoMegabytes", 64.0, 65536.0, preferences.undoMegabytes);
     const auto theme =
         std::find(kThemes.begin(), kThemes.end(), object.value("theme", nlohmann::json()));
     if (theme != kThemes.end()) {
@@ -92,6 +94,7 @@ void writePreferences(const Preferences& preferences, const std::filesystem::pat
                                 {"uiScale", preferences.uiScale},
                                 {"autosave", preferences.autosave},
                                 {"frameBudgetMs", preferences.frameBudgetMs},
+                                {"undoMegabytes", preferences.undoMegabytes},
                                 {"recentModels", preferences.recentModels},
                                 {"recentMaterials", preferences.recentMaterials}};
     std::error_code failed;

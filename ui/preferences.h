@@ -17,6 +17,7 @@ struct Preferences {
     double uiScale = 0.0; ///< 0: the display's
     bool autosave = true; ///< journals of sessions, for recovery
     double frameBudgetMs = 100.0;
+    double undoMegabytes = 512.0;          ///< of each material's history
     std::vector<std::string> recentModels; ///< latest first
     std::vector<std::string> recentMaterials;
 };

@@ -42,6 +42,15 @@ void Session::notify(Notice::Kind kind, const std::string& text) {
     }
 }
 
+void Session::setHistoryBytes(std::size_t bytes) {
+    mHistoryBytes = bytes;
+    for (const auto& document : mDocuments) {
+        if (document != nullptr) {
+            document->setHistoryBytes(bytes);
+        }
+    }
+}
+
 void Session::adopt(const OpenRequest& request, OpenedScene scene) {
     for (const std::string& warning : scene.world.warnings) {
         notify(Notice::Kind::Warning, warning);
@@ -53,6 +62,9 @@ void Session::adopt(const OpenRequest& request, OpenedScene scene) {
     mWorld = std::make_shared<const World>(std::move(scene.world));
     mRendered = std::move(scene.rendered);
     mDocuments = std::move(scene.documents);
+    if (mHistoryBytes) {
+        setHistoryBytes(*mHistoryBytes);
+    }
     mOpened = request;
     activeMaterial = 0;
     materialFile.reset();

@@ -73,6 +73,9 @@ public:
     [[nodiscard]] Dispatcher& dispatcher() { return mDispatcher; }
     [[nodiscard]] const SessionServices& services() const { return mServices; }
 
+    /// How much memory the history of each document may take, from now on.
+    void setHistoryBytes(std::size_t bytes);
+
     /// A scene that was read elsewhere becomes the one that is worked on.
     void adopt(const OpenRequest& request, OpenedScene scene);
 
@@ -182,7 +185,8 @@ private:
     OpenRequest mOpened;
     std::vector<std::shared_ptr<subedit::MaterialMap>> mRendered;
     std::vector<std::unique_ptr<subedit::Document>> mDocuments;
-    int mStrokeMaterial = -1; ///< of the open stroke
+    std::optional<std::size_t> mHistoryBytes; ///< of each; else their default
+    int mStrokeMaterial = -1;                 ///< of the open stroke
     subedit::StrokeCommand mStroke;
     bool mStrokeInverted = false;
     bool mStrokeSelects = false; ///< its paint is selection

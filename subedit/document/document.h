@@ -25,7 +25,10 @@ namespace celadon::subedit {
 struct DocumentSettings {
     /// Profiles kept as they were before edits, for undoing at once. Beyond it the oldest go, and
     /// are computed again from older ones and the commands between when they are needed.
-    std::size_t historyBytes = std::size_t{192} << 20;
+    std::size_t profileBytes = std::size_t{192} << 20;
+    /// All that undoing may take, of profiles and of what is needed to compute them again. Beyond
+    /// it the oldest commands can no longer be undone; the latest always can.
+    std::size_t historyBytes = std::size_t{512} << 20;
 };
 
 /// What a command did.
@@ -83,7 +86,7 @@ public:
     void cancelStroke();
     [[nodiscard]] bool isStrokeOpen() const { return mStroke != nullptr; }
 
-    [[nodiscard]] bool canUndo() const { return mDone > 0; }
+    [[nodiscard]] bool canUndo() const { return mDone > mForgotten; }
     [[nodiscard]] bool canRedo() const { return mDone < mHistory.size(); }
     /// @return whether there was anything to undo
     bool undo();
@@ -98,7 +101,9 @@ public:
     [[nodiscard]] DocumentChanges takeChanges();
 
     /// Memory that the history takes.
-    [[nodiscard]] std::size_t historyBytes() const;
+    [[nodiscard]] std::size_t historyBytes() const { return mProfileBytes + mOtherBytes; }
+    /// From now on, see DocumentSettings.
+    void setHistoryBytes(std::size_t bytes);
 
 private:
     struct Entry;
@@ -126,12 +131,16 @@ private:
 
     // Undoing (document_history.cpp).
     void commit(std::unique_ptr<Entry> entry);
+    template<typename Change>
+    void accountFor(Entry& entry, Change&& change);
     void trim();
+    void forgetOldest();
     [[nodiscard]] std::bitset<WeightMask::kTileSize * WeightMask::kTileSize>
     irreplaceable(std::size_t index, int tile) const;
     static void keepOnly(TileBefore& before,
                          const std::bitset<WeightMask::kTileSize * WeightMask::kTileSize>& wanted);
-    void complete(std::size_t index, TileBefore& wanted) const;
+    void complete(std::size_t index, TileBefore& wanted,
+                  const std::bitset<WeightMask::kTileSize * WeightMask::kTileSize>& needed) const;
     [[nodiscard]] ProfileLayout layoutBefore(std::size_t index) const;
     void restoreTiles(const Entry& entry);
     void undoGrowths(const Entry& entry);
@@ -143,9 +152,11 @@ private:
     WeightMask mSelection;
 
     std::vector<std::unique_ptr<Entry>> mHistory;
-    std::size_t mDone = 0;        ///< entries in effect; the rest can be redone
-    std::size_t mTrimmed = 0;     ///< entries that keep only what is irreplaceable
-    std::size_t mBeforeBytes = 0; ///< of all profiles that entries keep
+    std::size_t mDone = 0;         ///< entries in effect; the rest can be redone
+    std::size_t mForgotten = 0;    ///< entries that can no longer be undone: their commands only
+    std::size_t mTrimmed = 0;      ///< entries that keep only what is irreplaceable
+    std::size_t mProfileBytes = 0; ///< of all profiles that entries keep
+    std::size_t mOtherBytes = 0;   ///< of all else
     std::unique_ptr<OpenStroke> mStroke;
     ProfileArena mSetAside; ///< by the open stroke; its memory serves the next one
 

@@ -5,12 +5,14 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 // Undo. A command keeps the profiles that it changed, until all of them together are too many. Then
 // the oldest commands keep only what nothing else can give back: a texel's profile before the first
 // command that changed it, or before one that follows an operator which looked at other texels. The
-// rest is computed again when it is needed, by the same steps with the same bits.
+// rest is computed again when it is needed, by the same steps with the same bits. And when even
+// that is too much, the oldest commands are forgotten: they can no longer be undone.
 namespace celadon::subedit {
 
 Document::~Document() = default;
@@ -35,7 +37,7 @@ TileBits Document::Entry::weighted(int tile) const {
     return bits;
 }
 
-std::size_t Document::Entry::beforeBytes() const {
+std::size_t Document::Entry::profileBytes() const {
     std::size_t bytes = 0;
     for (const TileBefore& tile : before) {
         bytes += sizeof(tile) + tile.values.capacity() * sizeof(float);
@@ -43,8 +45,8 @@ std::size_t Document::Entry::beforeBytes() const {
     return bytes;
 }
 
-std::size_t Document::Entry::bytes() const {
-    std::size_t bytes = sizeof(*this) + mask.ownBytes() + beforeBytes();
+std::size_t Document::Entry::otherBytes() const {
+    std::size_t bytes = sizeof(*this) + mask.ownBytes();
     for (const Growth& g : growth) {
         bytes += g.before.capacity() * sizeof(float) + g.changedTexels.capacity() * 4;
     }
@@ -54,41 +56,88 @@ std::size_t Document::Entry::bytes() const {
     return bytes;
 }
 
-std::size_t Document::historyBytes() const {
-    std::size_t bytes = 0;
-    for (const auto& entry : mHistory) {
-        bytes += entry->bytes();
-    }
-    return bytes;
+/// Changes what an entry of the history keeps.
+template<typename Change>
+void Document::accountFor(Entry& entry, Change&& change) {
+    mProfileBytes -= entry.profileBytes();
+    mOtherBytes -= entry.accounted;
+    change();
+    entry.accounted = entry.otherBytes();
+    mProfileBytes += entry.profileBytes();
+    mOtherBytes += entry.accounted;
 }
 
 void Document::commit(std::unique_ptr<Entry> entry) {
     for (std::size_t e = mDone; e < mHistory.size(); ++e) {
-        mBeforeBytes -= mHistory[e]->beforeBytes();
+        mProfileBytes -= mHistory[e]->profileBytes();
+        mOtherBytes -= mHistory[e]->accounted;
     }
     mHistory.resize(mDone);
-    mBeforeBytes += entry->beforeBytes();
+    entry->accounted = entry->otherBytes();
+    mProfileBytes += entry->profileBytes();
+    mOtherBytes += entry->accounted;
     mHistory.push_back(std::move(entry));
     ++mDone;
     trim();
 }
 
+void Document::setHistoryBytes(std::size_t bytes) {
+    mSettings.historyBytes = bytes;
+    trim();
+}
+
 void Document::trim() {
-    for (; mTrimmed < mDone && mBeforeBytes > mSettings.historyBytes; ++mTrimmed) {
+    const std::size_t profileBytes = std::min(mSettings.profileBytes, mSettings.historyBytes);
+    for (; mTrimmed < mDone && mProfileBytes > profileBytes; ++mTrimmed) {
         Entry& entry = *mHistory[mTrimmed];
-        mBeforeBytes -= entry.beforeBytes();
-        tbb::parallel_for(std::size_t{0}, entry.before.size(), [&](std::size_t i) {
-            keepOnly(entry.before[i], irreplaceable(mTrimmed, entry.before[i].tile));
+        accountFor(entry, [&] {
+            tbb::parallel_for(std::size_t{0}, entry.before.size(), [&](std::size_t i) {
+                keepOnly(entry.before[i], irreplaceable(mTrimmed, entry.before[i].tile));
+            });
         });
-        mBeforeBytes += entry.beforeBytes();
     }
+    while (historyBytes() > mSettings.historyBytes && mForgotten + 1 < mDone) {
+        forgetOldest();
+    }
+}
+
+/// What later entries would have computed from the oldest one they keep from now on.
+void Document::forgetOldest() {
+    Entry& oldest = *mHistory[mForgotten];
+    std::atomic<std::size_t> moreBytes = 0;
+    tbb::parallel_for(std::size_t{0}, oldest.before.size(), [&](std::size_t i) {
+        const int tile = oldest.before[i].tile;
+        TileBits open = oldest.weighted(tile);
+        for (std::size_t e = mForgotten + 1; e < mTrimmed && open.any(); ++e) {
+            TileBefore* const before = mHistory[e]->find(tile);
+            if (before == nullptr) {
+                continue;
+            }
+            const TileBits touched = open & mHistory[e]->weighted(tile);
+            if ((touched & ~before->kept).any()) {
+                TileBefore more{tile, {}, {}};
+                complete(e, more, before->kept | touched);
+                moreBytes += (more.values.capacity() - before->values.capacity()) * sizeof(float);
+                *before = std::move(more);
+            }
+            open &= ~touched;
+        }
+    });
+    mProfileBytes += moreBytes;
+    accountFor(oldest, [&] {
+        oldest.mask = WeightMask();
+        oldest.selectionBefore = WeightMask();
+        oldest.growth = {};
+        oldest.before = {};
+    });
+    mTrimmed = std::max(mTrimmed, ++mForgotten);
 }
 
 /// Texels of a tile whose profile before an entry cannot be computed from earlier ones.
 TileBits Document::irreplaceable(std::size_t index, int tile) const {
     TileBits open = mHistory[index]->weighted(tile);
     TileBits kept;
-    for (std::size_t e = index; e-- > 0 && open.any();) {
+    for (std::size_t e = index; e-- > mForgotten && open.any();) {
         const Entry& earlier = *mHistory[e];
         if (earlier.isSelection()) {
             continue;
@@ -124,9 +173,9 @@ void Document::keepOnly(TileBefore& before, const TileBits& wanted) {
 }
 
 /// Computes again what trim() has left out of a tile of an entry in effect.
-void Document::complete(std::size_t index, TileBefore& wanted) const {
+/// @param needed texels that the entry has changed
+void Document::complete(std::size_t index, TileBefore& wanted, const TileBits& needed) const {
     const int tile = wanted.tile;
-    const TileBits needed = mHistory[index]->weighted(tile);
     // Back to the latest profile that is kept of each texel.
     struct Start {
         std::size_t entry = 0;
@@ -152,7 +201,7 @@ void Document::complete(std::size_t index, TileBefore& wanted) const {
                 }
             }
         }
-        if (open.none() || e == 0) {
+        if (open.none() || e == mForgotten) {
             break;
         }
     }
@@ -254,22 +303,25 @@ bool Document::undo() {
         mTrimmed = std::min(mTrimmed, --mDone);
         return true;
     }
-    mBeforeBytes -= entry.beforeBytes();
-    // Tiles are read by their neighbors in time only, not in space: one at a time each.
-    std::vector<TileBefore> before(entry.before.size());
-    tbb::parallel_for(std::size_t{0}, before.size(), [&](std::size_t i) {
-        before[i].tile = entry.before[i].tile;
-        if (entry.before[i].kept != entry.weighted(before[i].tile)) {
-            complete(mDone - 1, before[i]);
-        } else {
-            before[i] = std::move(entry.before[i]);
-        }
+    accountFor(entry, [&] {
+        // Tiles are read by their neighbors in time only, not in space: one at a time each.
+        std::vector<TileBefore> before(entry.before.size());
+        tbb::parallel_for(std::size_t{0}, before.size(), [&](std::size_t i) {
+            TileBefore& kept = entry.before[i];
+            before[i].tile = kept.tile;
+            const TileBits changed = entry.weighted(kept.tile);
+            if (kept.kept != changed) {
+                complete(mDone - 1, before[i], changed);
+            } else {
+                before[i] = std::move(kept);
+            }
+        });
+        entry.before = std::move(before);
+        restoreTiles(entry);
+        undoGrowths(entry);
+        entry.before.clear(); // doing it again saves them again
+        entry.growth.clear();
     });
-    entry.before = std::move(before);
-    restoreTiles(entry);
-    undoGrowths(entry);
-    entry.before.clear(); // doing it again saves them again
-    entry.growth.clear();
     mTrimmed = std::min(mTrimmed, --mDone);
     return true;
 }
@@ -283,8 +335,7 @@ bool Document::redo() {
     if (entry.isSelection()) {
         setSelection(entry.mask);
     } else {
-        applyMasked(entry);
-        mBeforeBytes += entry.beforeBytes();
+        accountFor(entry, [&] { applyMasked(entry); });
     }
     ++mDone;
     trim();

@@ -27,6 +27,7 @@ struct Document::Entry {
     WeightMask selectionBefore;     ///< of a SelectCommand
     std::vector<Growth> growth;     ///< done before the texels were changed, in order
     std::vector<TileBefore> before; ///< after the growth; tiles ascending
+    std::size_t accounted = 0;      ///< otherBytes() as the history counts it
 
     [[nodiscard]] bool isSelection() const {
         return std::holds_alternative<SelectCommand>(command);
@@ -36,8 +37,9 @@ struct Document::Entry {
     /// Which texels of a tile have a weight.
     [[nodiscard]] TileBits weighted(int tile) const;
 
-    [[nodiscard]] std::size_t beforeBytes() const;
-    [[nodiscard]] std::size_t bytes() const;
+    /// Memory for profiles, and for all else.
+    [[nodiscard]] std::size_t profileBytes() const;
+    [[nodiscard]] std::size_t otherBytes() const;
 };
 
 } // namespace celadon::subedit

@@ -4,7 +4,7 @@
 # light to be on screen, undoing now and then as hands do. Leaves FOLDER/painting_soak.svg (time of a
 # stroke, and memory) and the numbers beside it. Fails where the last third is a quarter slower than
 # the first, or where memory goes on growing faster than the undo history is allowed to. An hour:
-# SECONDS = 3600. Exit code 77: cannot run here.
+# SECONDS = 3600; undoing may take 256 MB, which it reaches on the way. Exit code 77: cannot run here.
 set -u
 program=$1
 folder=$2
@@ -12,6 +12,8 @@ seconds=$3
 
 . "$(dirname "$0")/display.sh"
 open_display "$folder" 1280x720
+mkdir -p "$folder/config/celadon"
+echo '{"undoMegabytes": 256}' >"$folder/config/celadon/preferences.json"
 
 # Strokes around the vase's belly: 40 points each, every fifth taken back and done again.
 awk 'BEGIN {

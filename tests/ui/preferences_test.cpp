@@ -66,12 +66,14 @@ TEST(Preferences, WhatIsWrittenReadsBack) {
     Preferences preferences;
     preferences.theme = Theme::Light;
     preferences.uiScale = 1.5;
+    preferences.undoMegabytes = 300.0;
     preferences.keys.set(Action::Undo, {GLFW_KEY_KP_ADD, GLFW_MOD_ALT});
     preferences.keys.set(Action::Quit, {});
     writePreferences(preferences, file);
     const Preferences back = readPreferences(file);
     EXPECT_EQ(back.theme, Theme::Light);
     EXPECT_EQ(back.uiScale, 1.5);
+    EXPECT_EQ(back.undoMegabytes, 300.0);
     EXPECT_EQ(back.keys, preferences.keys);
     EXPECT_EQ(back.keys.text(Action::Undo), "Alt+Num +");
 }
@@ -79,13 +81,15 @@ TEST(Preferences, WhatIsWrittenReadsBack) {
 TEST(Preferences, WhatIsWrongTakesItsDefault) {
     const test::TemporaryFolder folder;
     const auto file = folder / "p.json";
-    for (const char* text : {R"({"theme": "pink", "keys": [1], "uiScale": -3, "autosave": 7})",
+    for (const char* text : {R"({"theme": "pink", "keys": [1], "uiScale": -3, "autosave": 7,
+                             "undoMegabytes": -1})",
                              R"({"theme": 1, "keys": {"undo": 5}})", "[]", "no JSON", ""}) {
         std::ofstream(file) << text;
         const Preferences read = readPreferences(file);
         EXPECT_EQ(read.theme, Theme::Dark) << text;
         EXPECT_EQ(read.keys, KeyMap()) << text;
         EXPECT_EQ(read.uiScale, 0.0) << text;
+        EXPECT_EQ(read.undoMegabytes, 512.0) << text;
         EXPECT_TRUE(read.autosave) << text;
     }
 }

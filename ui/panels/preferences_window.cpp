@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace celadon::ui {
 
@@ -100,6 +101,15 @@ bool drawPreferencesWindow(Preferences& preferences, bool& isShown,
             isChanged = true;
         }
         isChanged |= drawKeys(preferences.keys, keyWantedFor, scale);
+        heading("Undo");
+        auto undo = static_cast<float>(preferences.undoMegabytes);
+        if (sliderField("Memory", undo, 128.0f, 8192.0f, "%.0f MB",
+                        "What the history of a material may take. Beyond it the oldest steps can "
+                        "no longer be undone",
+                        true)) {
+            preferences.undoMegabytes = static_cast<double>(std::round(undo));
+            isChanged = true;
+        }
         heading("Safety");
         isChanged |=
             ImGui::Checkbox("Keep a journal for recovery after a crash", &preferences.autosave);

@@ -115,7 +115,7 @@ TEST(Document, AStrokeAsItHappensIsTheStrokeAtOnce) {
 TEST(Document, UndoGivesBackTheBytesWhenTheHistoryIsTrimmed) {
     const MaterialMap original = test::varyingMaterial(kSize, kSize, 16);
     for (unsigned seed = 1; seed <= 4; ++seed) {
-        Document document(original, flat(), {.historyBytes = 0});
+        Document document(original, flat(), {.profileBytes = 0});
         std::mt19937 random(seed);
         std::uniform_real_distribution<float> place(5.0f, 75.0f);
         std::vector<std::vector<float>> states{original.logProfile};
@@ -166,7 +166,7 @@ TEST(Document, HistoryStaysWithinItsBudget) {
     constexpr std::size_t kBudget = std::size_t{1} << 20;
     const MaterialMap original = test::varyingMaterial(kSize, kSize, 16);
     const std::size_t mapBytes = original.logProfile.size() * sizeof(float);
-    Document document(original, flat(), {.historyBytes = kBudget});
+    Document document(original, flat(), {.profileBytes = kBudget});
     std::mt19937 random(5);
     std::uniform_real_distribution<float> place(5.0f, 75.0f);
     constexpr std::size_t kStrokes = 150;
@@ -187,6 +187,73 @@ TEST(Document, HistoryStaysWithinItsBudget) {
     while (document.redo()) {
     }
     EXPECT_LT(document.historyBytes(), mapBytes + kBudget + kStrokes * 40000);
+}
+
+/// Random edits, some undone and done again on the way, within so little memory that the oldest
+/// must go: what can be undone gives back the bytes that were there.
+TEST(Document, ForgetsTheOldestCommandsAndUndoesTheRestToTheByte) {
+    const MaterialMap original = test::varyingMaterial(kSize, kSize, 16);
+    std::size_t forgotten = 0;
+    for (unsigned seed = 1; seed <= 6; ++seed) {
+        // Profiles are trimmed as well, or not.
+        const std::size_t budget = std::size_t{2} << 20;
+        Document document(original, flat(),
+                          {.profileBytes = seed % 2 == 0 ? 0 : budget, .historyBytes = budget});
+        std::mt19937 random(seed);
+        std::uniform_real_distribution<float> place(5.0f, 75.0f);
+        std::vector<std::vector<float>> states{original.logProfile};
+        for (int i = 0; i < 60; ++i) {
+            if (random() % 4 == 0 && document.undo()) {
+                states.pop_back();
+                ASSERT_EQ(document.material().logProfile, states.back()) << "step " << i;
+                if (random() % 2 == 0) {
+                    ASSERT_TRUE(document.redo());
+                    states.push_back(document.material().logProfile);
+                }
+                continue;
+            }
+            if (random() % 8 == 0) {
+                document.execute(SelectCommand{
+                    SelectStroke{{.radiusMm = 30.0f}, {}, {point(place(random), place(random))}},
+                    random() % 2 == 0 ? SelectMode::Replace : SelectMode::Add});
+            } else {
+                document.execute(stroke(randomOperator(random), place(random), place(random),
+                                        place(random), place(random)));
+            }
+            states.push_back(document.material().logProfile);
+            // The latest command, however large, and what it takes to compute the rest.
+            ASSERT_LT(document.historyBytes(), 3 * budget) << "step " << i;
+        }
+        const std::size_t commands = document.commandCount();
+        ASSERT_EQ(document.commands().size(), states.size() - 1);
+        std::size_t undone = 0;
+        while (document.undo()) {
+            states.pop_back();
+            ASSERT_EQ(document.material().logProfile, states.back()) << "seed " << seed;
+            ++undone;
+        }
+        EXPECT_GE(undone, 1u);
+        forgotten += commands - undone;
+        for (std::size_t i = 0; i < undone; ++i) {
+            ASSERT_TRUE(document.redo());
+        }
+    }
+    EXPECT_GT(forgotten, 20u);
+}
+
+TEST(Document, LessHistoryIsForgottenAtOnce) {
+    Document document(test::varyingMaterial(kSize, kSize, 16), flat());
+    for (int i = 0; i < 5; ++i) {
+        document.execute(stroke(ScaleAlbedo{glm::vec3(0.9f)}, 20.0f, 20.0f, 60.0f, 60.0f));
+    }
+    const std::vector<float> before = document.material().logProfile;
+    document.setHistoryBytes(0);
+    EXPECT_EQ(document.material().logProfile, before);
+    EXPECT_EQ(document.commandCount(), 5u);
+    EXPECT_TRUE(document.undo());
+    EXPECT_FALSE(document.undo());
+    EXPECT_TRUE(document.redo());
+    EXPECT_EQ(document.material().logProfile, before);
 }
 
 TEST(Document, SelectionBoundsEditsAndIsUndone) {
