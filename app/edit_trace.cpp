@@ -16,24 +16,27 @@ namespace celadon::app {
 namespace {
 
 std::string table(const std::vector<ui::TracePoint>& points) {
-    std::string text = "seconds,command_ms,picture_ms,memory_mb\n";
+    std::string text = "seconds,command_ms,picture_ms,processor_ms,memory_mb\n";
     for (const ui::TracePoint& p : points) {
-        text += fmt::format("{:.3f},{:.3f},{:.3f},{:.2f}\n", p.seconds, p.commandMs, p.pictureMs,
-                            p.memoryMb);
+        text += fmt::format("{:.3f},{:.3f},{:.3f},{:.3f},{:.2f}\n", p.seconds, p.commandMs,
+                            p.pictureMs, p.processorMs, p.memoryMb);
     }
     return text;
 }
 
 plot::Drawing figure(const std::vector<ui::TracePoint>& points) {
-    plot::Series command, picture, memory;
+    plot::Series command, picture, processor, memory;
     command.label = "map, tables and undo";
     command.color = plot::seriesColor(0);
     picture.label = "until its light is on screen";
     picture.color = plot::seriesColor(1);
+    processor.label = "processor time, all cores";
+    processor.color = plot::seriesColor(3);
     memory.color = plot::seriesColor(2);
     for (const ui::TracePoint& p : points) {
         command.points.emplace_back(p.seconds, p.commandMs);
         picture.points.emplace_back(p.seconds, p.commandMs + p.pictureMs);
+        processor.points.emplace_back(p.seconds, p.processorMs);
         memory.points.emplace_back(p.seconds, p.memoryMb);
     }
     plot::LineChart times;
@@ -41,7 +44,7 @@ plot::Drawing figure(const std::vector<ui::TracePoint>& points) {
     times.x.label = "time of the session [s]";
     times.y.label = "milliseconds";
     times.y.from = 0.0;
-    times.series = {std::move(command), std::move(picture)};
+    times.series = {std::move(command), std::move(picture), std::move(processor)};
     plot::LineChart sizes;
     sizes.title = "Resident memory";
     sizes.x.label = times.x.label;

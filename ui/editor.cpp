@@ -407,7 +407,7 @@ void Editor::recover(const Recovery& recovery) {
     mSession.notify(Notice::Kind::Info,
                     fmt::format("Recovered {} of {} steps; they are not saved yet", done,
                                 recovery.commands.size()));
-    mSession.materialFile.reset(); // nothing takes the file's name unless asked to
+    mSession.forgetMaterialFiles();
     std::error_code ignored;
     std::filesystem::remove(recovery.file, ignored);
 }

@@ -15,10 +15,11 @@ namespace celadon::ui {
 
 /// How a long replay went, one point a command: what `--trace` keeps.
 struct TracePoint {
-    double seconds = 0.0;   ///< since the window opened
-    double commandMs = 0.0; ///< the map changed
-    double pictureMs = 0.0; ///< until the light of it was on screen
-    double memoryMb = 0.0;  ///< resident
+    double seconds = 0.0;     ///< since the window opened
+    double commandMs = 0.0;   ///< the map changed
+    double pictureMs = 0.0;   ///< until the light of it was on screen
+    double processorMs = 0.0; ///< of both, of all cores: what other programs do does not count
+    double memoryMb = 0.0;    ///< resident
 };
 
 /// What `celadon edit` was asked for.

@@ -94,8 +94,12 @@ void FileActions::saveDeformers(const std::function<void()>& then) {
            });
 }
 
-bool FileActions::saveTo(const std::filesystem::path& file) {
-    if (!mSession.perform({"file.save", {{"file", file.string()}}})) {
+bool FileActions::saveTo(int material, const std::filesystem::path& file) {
+    Command save{"file.save", {{"file", file.string()}}};
+    if (mSession.materialCount() > 1) {
+        save.arguments["material"] = material;
+    }
+    if (!mSession.perform(save)) {
         return false;
     }
     if (!mIsUnattended) {
@@ -105,25 +109,49 @@ bool FileActions::saveTo(const std::filesystem::path& file) {
     return true;
 }
 
-void FileActions::saveAs(const std::function<void()>& then) {
-    if (mSession.activeDocument() == nullptr) {
+void FileActions::saveAs(int material, const std::function<void()>& then) {
+    const subedit::Document* const document = mSession.document(material);
+    if (document == nullptr) {
         return;
     }
-    const std::string name = mSession.materialFile
-                                 ? mSession.materialFile->filename().string()
-                                 : mSession.activeDocument()->material().name + kMaterialSuffix;
-    choose(FileDialog::Kind::Save, "Save the material", {kMaterialSuffix}, name,
-           [this, then](const auto& file) {
-               if (saveTo(file) && then) {
+    const std::filesystem::path& file = mSession.materialFile(material);
+    const std::string& label = document->material().name;
+    choose(FileDialog::Kind::Save,
+           mSession.materialCount() > 1 ? fmt::format("Save material {}, {}", material + 1, label)
+                                        : "Save the material",
+           {kMaterialSuffix}, file.empty() ? label + kMaterialSuffix : file.filename().string(),
+           [this, material, then](const auto& chosen) {
+               if (saveTo(material, chosen) && then) {
                    then();
                }
            });
 }
 
+void FileActions::saveFrom(int material, const std::function<void()>& then) {
+    while (material < mSession.materialCount() && !mSession.isModified(material)) {
+        ++material;
+    }
+    if (material == mSession.materialCount()) {
+        if (then) {
+            then();
+        }
+        return;
+    }
+    const auto next = [this, material, then] { saveFrom(material + 1, then); };
+    if (mSession.materialFile(material).empty()) {
+        saveAs(material, next);
+    } else if (saveTo(material, mSession.materialFile(material))) {
+        next();
+    }
+}
+
 void FileActions::save(const std::function<void()>& then) {
-    if (!mSession.materialFile) {
-        saveAs(then);
-    } else if (saveTo(*mSession.materialFile) && then) {
+    const int active = mSession.activeMaterial;
+    if (mSession.isModified() || mSession.document(active) == nullptr) {
+        saveFrom(0, then);
+    } else if (mSession.materialFile(active).empty()) {
+        saveAs(active, then);
+    } else if (saveTo(active, mSession.materialFile(active)) && then) {
         then();
     }
 }
@@ -134,11 +162,11 @@ void FileActions::saveAsNew(const std::string& name) {
     std::filesystem::create_directories(folder, failed);
     const std::filesystem::path file = folder / (name + kMaterialSuffix);
     if (!std::filesystem::exists(file, failed)) {
-        saveTo(file);
+        saveTo(mSession.activeMaterial, file);
         return;
     }
     ask("Replace?", fmt::format("There is a material '{}' already.", name),
-        {{"Replace", [this, file] { saveTo(file); }}, {"Cancel", {}}});
+        {{"Replace", [this, file] { saveTo(mSession.activeMaterial, file); }}, {"Cancel", {}}});
 }
 
 void FileActions::exportGltf() {

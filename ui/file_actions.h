@@ -30,9 +30,10 @@ public:
     void openDeformers();
     /// @param then once they are saved
     void saveDeformers(const std::function<void()>& then = {});
-    /// @param then once it is saved
+    /// All materials that are modified; the active one if none is. @param then once they are saved
     void save(const std::function<void()>& then = {});
-    void saveAs(const std::function<void()>& then = {});
+    /// The active material, under another name.
+    void saveAs() { saveAs(mSession.activeMaterial, {}); }
     /// Into the user's own materials. @param name without a suffix
     void saveAsNew(const std::string& name);
     void exportGltf();
@@ -61,7 +62,10 @@ public:
 private:
     void choose(FileDialog::Kind kind, const std::string& title, std::vector<std::string> suffixes,
                 const std::string& name, std::function<void(const std::filesystem::path&)> done);
-    bool saveTo(const std::filesystem::path& file);
+    bool saveTo(int material, const std::filesystem::path& file);
+    void saveAs(int material, const std::function<void()>& then);
+    /// All that are modified from this one on, one after the other.
+    void saveFrom(int material, const std::function<void()>& then);
     void replaceDeformers(const std::filesystem::path& file);
     void guardMaterial(const std::function<void()>& act);
     void guardDeformers(const std::function<void()>& act);

@@ -1,11 +1,14 @@
 // Commands about files.
+#include "renderer/scene/gltf_file.h"
 #include "renderer/scene/load_deformers.h"
+#include "renderer/scene/rewrite_gltf.h"
 #include "renderer/scene/write_gltf.h"
 #include "subedit/errors.h"
 #include "subedit/map/material_file.h"
 #include "ui/session.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace celadon::ui {
 
@@ -39,15 +42,9 @@ void writeMaterialFile(const Session& session, const subedit::MaterialMap& mater
     subedit::writeMaterial(material, file);
 }
 
-/// FILE.gltf, FILE.bin, and a material file for each material that is worn.
-void exportGltf(Session& session, const std::filesystem::path& file) {
-    if (!session.hasWorld() || !session.services().describeMaterial) {
-        throw UsageError("export", "there is no model", "open one first");
-    }
-    if (file.extension() != ".gltf") {
-        throw UsageError(fmt::format("'{}'", file.string()), "is no name of a glTF",
-                         "let it end in .gltf");
-    }
+/// Of the materials that are painted, as glTF has them; each is written beside the file.
+std::vector<nlohmann::json> exportMaterials(const Session& session,
+                                            const std::filesystem::path& file) {
     std::vector<nlohmann::json> materials;
     for (int i = 0; i < session.materialCount(); ++i) {
         const subedit::Document* const document = session.document(i);
@@ -59,16 +56,57 @@ void exportGltf(Session& session, const std::filesystem::path& file) {
         writeMaterialFile(session, document->material(), file.parent_path() / name);
         materials.push_back(session.services().describeMaterial(document->material(), name));
     }
-    nlohmann::json extras = nlohmann::json::object();
-    if (const DeformerStack& stack = session.motion.now.deformers; !stack.empty()) {
-        constexpr double kMmPerMeter = 1e3;
-        extras["celadon"] = loaders::deformersJson(
-            inUnits(stack, session.world().millimetersPerUnit / kMmPerMeter));
+    return materials;
+}
+
+/// A glTF that was opened keeps all that it has but for materials and deformers, unless its
+/// vertices had to change for an automatic atlas. Of other models a glTF is made.
+void exportGltf(Session& session, const std::filesystem::path& file) {
+    if (!session.hasWorld() || !session.services().describeMaterial) {
+        throw UsageError("export", "there is no model", "open one first");
     }
-    writeGltf(session.world(), materials, extras, file);
+    loaders::checkGltfName(file);
+    const std::filesystem::path model = session.opened().model;
+    std::error_code ignored;
+    if (std::filesystem::equivalent(model, file, ignored)) {
+        throw UsageError(fmt::format("'{}'", file.string()), "is the model itself",
+                         "choose another name");
+    }
+    const World& world = session.world();
+    const std::vector<nlohmann::json> materials = exportMaterials(session, file);
+    constexpr double kMmPerMeter = 1e3;
+    const double metersPerUnit = world.millimetersPerUnit / kMmPerMeter;
+    const DeformerStack stack = inUnits(session.motion.now.deformers, metersPerUnit);
+    const bool isGltf = model.extension() == ".gltf" || model.extension() == ".glb";
+    std::vector<std::string> lost;
+    if (isGltf && !world.hasAutomaticAtlas) {
+        loaders::GltfChanges changes;
+        for (const WorldMesh& part : world.meshes) {
+            if (part.scattering >= 0) { // looks are numbered as in the file
+                changes.materials[static_cast<std::size_t>(part.mesh.material)] =
+                    materials[static_cast<std::size_t>(part.scattering)];
+            }
+        }
+        changes.deformers = stack;
+        changes.scale = metersPerUnit;
+        lost = loaders::rewriteGltf(model, changes, file);
+    } else {
+        nlohmann::json extras = nlohmann::json::object();
+        if (!stack.empty()) {
+            extras["celadon"] = loaders::deformersJson(stack);
+        }
+        writeGltf(world, materials, extras, file);
+        if (world.rig != nullptr && !world.rig->animations.empty()) {
+            lost.emplace_back("its animations, because the model came without texture coordinates");
+        }
+    }
     session.notify(Notice::Kind::Info,
                    fmt::format("Exported '{}' with {} beside it", file.string(),
                                materials.size() > 1 ? "its materials" : "its material"));
+    if (!lost.empty()) {
+        session.notify(Notice::Kind::Warning,
+                       fmt::format("The export lacks {}", fmt::join(lost, ", ")));
+    }
 }
 
 } // namespace
@@ -85,7 +123,9 @@ void addFileCommands(Session& session) {
                  [&session](const Arguments& a) { exportGltf(session, a.text("file")); });
     commands.add("file.save", "Writes the material that is worked on to a .subedit.exr",
                  [&session](const Arguments& a) {
-                     const subedit::Document* const document = session.activeDocument();
+                     const int material = a.has("material") ? a.integerWithin("material", 0, 64)
+                                                            : session.activeMaterial;
+                     const subedit::Document* const document = session.document(material);
                      if (document == nullptr) {
                          throw UsageError("save", "there is no material", "open a model first");
                      }
@@ -95,8 +135,8 @@ void addFileCommands(Session& session) {
                                           "is no name of a material", "let it end in .subedit.exr");
                      }
                      writeMaterialFile(session, document->material(), file);
-                     session.materialFile = file;
-                     session.markSaved();
+                     session.setMaterialFile(material, file);
+                     session.markSaved(material);
                      session.notify(Notice::Kind::Info, fmt::format("Saved '{}'", file.string()));
                  });
 }

@@ -72,7 +72,9 @@ subedit::SelectionStep selectionStep(const Arguments& a) {
 } // namespace
 
 void Session::edit(const subedit::EditCommand& command) {
-    const subedit::EditReport report = documentOf(*this, activeMaterial).execute(command);
+    subedit::Document& target = documentOf(*this, activeMaterial);
+    dropUndone(activeMaterial);
+    const subedit::EditReport report = target.execute(command);
     mDispatcher.announce(editCommand(activeMaterial, command));
     tell(report);
     touchMaterial();
@@ -138,6 +140,7 @@ void Session::endStroke() {
             subedit::SelectStroke{mStroke.brush, mStroke.mirror, mStroke.path},
             mStrokeInverted ? subedit::SelectMode::Subtract : adding};
     }
+    dropUndone(material);
     const subedit::EditReport report = mStrokeIsLive ? target.endStroke() : target.execute(edit);
     tell(report);
     mDispatcher.announce(editCommand(material, edit));
@@ -161,27 +164,27 @@ void addPaintCommands(Session& session) {
                      const int material = a.integerWithin("material", 0, 64);
                      const subedit::EditCommand edit =
                          subedit::parseCommand("paint.edit", a.value("edit").dump());
-                     documentOf(session, material).execute(edit);
+                     subedit::Document& document = documentOf(session, material);
+                     session.activeMaterial = material; // as by the hand that did it
+                     session.dropUndone(material);
+                     document.execute(edit);
                      session.touchMaterial();
                  });
     commands.add("edit.undo", "Takes back the last change of the material or of the deformers",
                  [&session](const Arguments&) {
                      refuseDuringStroke(session);
-                     if (session.undoMotion()) {
+                     if (session.undoMotion() || session.undoEdit()) {
                          return;
                      }
-                     subedit::Document& document = documentOf(session, session.activeMaterial);
-                     if (document.undo()) {
-                         session.touchMaterial();
-                     } else if (document.commandCount() > 0) {
+                     if (session.isAnyForgotten()) {
                          throw UsageError("undo", "older steps are forgotten: the preferences say "
                                                   "how much memory undoing may take");
                      }
                  });
     commands.add("edit.redo", "Repeats what was taken back", [&session](const Arguments&) {
         refuseDuringStroke(session);
-        if (!session.redoMotion() && documentOf(session, session.activeMaterial).redo()) {
-            session.touchMaterial();
+        if (!session.redoMotion()) {
+            session.redoEdit();
         }
     });
     commands.add("material.activate", "Chooses which material is worked on",

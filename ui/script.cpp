@@ -66,8 +66,10 @@ Script::Step Script::advance(const Progress& progress) {
     }
     if (mIsTracing) {
         mIsTracing = false;
+        const auto processor = static_cast<double>(std::clock() - mProcessorBegin);
         mOptions.trace({1e-3 * millisecondsSince(mStart), mCommandMs,
-                        millisecondsSince(mCommandBegin) - mCommandMs, residentMb()});
+                        millisecondsSince(mCommandBegin) - mCommandMs,
+                        1e3 * processor / CLOCKS_PER_SEC, residentMb()});
     } else if (isReplaying()) {
         if (const auto file = mReplayer->dueScreenshot()) {
             step.screenshot = file;
@@ -75,6 +77,7 @@ Script::Step Script::advance(const Progress& progress) {
         } else if (const std::optional<Command> command = mReplayer->next()) {
             const std::uint64_t before = mSession.pictureRevision();
             mCommandBegin = Clock::now();
+            mProcessorBegin = std::clock();
             mSession.execute(*command);
             mCommandMs = millisecondsSince(mCommandBegin);
             step.isCommand = true;

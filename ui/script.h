@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <ctime>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -60,6 +61,7 @@ private:
     std::uint64_t mAwaitedRevision = 0;
     std::chrono::steady_clock::time_point mCommandBegin;
     double mCommandMs = 0.0;
+    std::clock_t mProcessorBegin = 0;
 };
 
 } // namespace celadon::ui

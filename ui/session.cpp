@@ -42,15 +42,6 @@ void Session::notify(Notice::Kind kind, const std::string& text) {
     }
 }
 
-void Session::setHistoryBytes(std::size_t bytes) {
-    mHistoryBytes = bytes;
-    for (const auto& document : mDocuments) {
-        if (document != nullptr) {
-            document->setHistoryBytes(bytes);
-        }
-    }
-}
-
 void Session::adopt(const OpenRequest& request, OpenedScene scene) {
     for (const std::string& warning : scene.world.warnings) {
         notify(Notice::Kind::Warning, warning);
@@ -67,11 +58,7 @@ void Session::adopt(const OpenRequest& request, OpenedScene scene) {
     }
     mOpened = request;
     activeMaterial = 0;
-    materialFile.reset();
-    if (request.material.ends_with(".subedit.exr")) {
-        materialFile = request.material;
-    }
-    mSavedRevision = mMaterialRevision;
+    adoptFiles(request);
     if (!isSameModel) {
         camera = chooseCamera(*mWorld, {}, aspect);
         fileCamera = camera;
@@ -94,16 +81,6 @@ void Session::adopt(const OpenRequest& request, OpenedScene scene) {
 
 std::vector<std::shared_ptr<subedit::MaterialMap>> Session::takeRenderedMaterials() {
     return std::exchange(mRendered, {});
-}
-
-const subedit::Document* Session::document(int material) const {
-    return material >= 0 && material < materialCount()
-               ? mDocuments[static_cast<std::size_t>(material)].get()
-               : nullptr;
-}
-
-subedit::Document* Session::document(int material) {
-    return const_cast<subedit::Document*>(std::as_const(*this).document(material));
 }
 
 void Session::touchMaterial() {

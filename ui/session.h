@@ -111,8 +111,29 @@ public:
     void tell(const subedit::EditReport& report);
     /// After anything that changed a document's content.
     void touchMaterial();
-    [[nodiscard]] bool isModified() const { return mMaterialRevision != mSavedRevision; }
-    void markSaved() { mSavedRevision = mMaterialRevision; }
+    /// Before an edit of one: nothing that was undone in another can be redone after it.
+    void dropUndone(int material);
+    /// Takes back the latest edit of all materials, and activates its material; repeats the first
+    /// that was taken back. @return whether there was any
+    bool undoEdit();
+    bool redoEdit();
+    /// There are edits that can no longer be undone.
+    [[nodiscard]] bool isAnyForgotten() const { return latestEdited() < 0 && editCount() > 0; }
+
+    // Saving (session_materials.cpp).
+    [[nodiscard]] bool isModified(int material) const;
+    /// Any of them.
+    [[nodiscard]] bool isModified() const;
+    void markSaved(int material);
+    /// Where Save writes; empty: nobody has said yet.
+    [[nodiscard]] const std::filesystem::path& materialFile(int material) const {
+        return mFiles[static_cast<std::size_t>(material)];
+    }
+    void setMaterialFile(int material, const std::filesystem::path& file) {
+        mFiles[static_cast<std::size_t>(material)] = file;
+    }
+    /// Nothing takes a file's name unless asked to.
+    void forgetMaterialFiles();
     /// What edit.undo and edit.redo would do; nothing: there is nothing.
     [[nodiscard]] std::optional<std::string> undoTitle() const;
     [[nodiscard]] std::optional<std::string> redoTitle() const;
@@ -148,8 +169,7 @@ public:
     ViewState view;
     PaintState paint;
     int activeMaterial = 0;
-    std::optional<std::filesystem::path> materialFile; ///< where Save writes
-    double aspect = 16.0 / 9.0;                        ///< of the viewport; set by the window
+    double aspect = 16.0 / 9.0; ///< of the viewport; set by the window
     std::vector<Notice> notices;
     /// Told of each material file before it is written: what stands there may be worth keeping.
     std::function<void(const std::filesystem::path&)> beforeWriting;
@@ -172,6 +192,11 @@ private:
     void keepChoice(const DeformerStack& before);
     /// Of all documents, in effect.
     [[nodiscard]] std::size_t editCount() const;
+    /// Whose edit is the latest, or was taken back last; -1: none.
+    [[nodiscard]] int latestEdited() const;
+    [[nodiscard]] int nextRedone() const;
+    /// Files and saved states of documents just opened.
+    void adoptFiles(const OpenRequest& request);
 
     SessionServices mServices;
     Dispatcher mDispatcher;
@@ -185,8 +210,10 @@ private:
     OpenRequest mOpened;
     std::vector<std::shared_ptr<subedit::MaterialMap>> mRendered;
     std::vector<std::unique_ptr<subedit::Document>> mDocuments;
-    std::optional<std::size_t> mHistoryBytes; ///< of each; else their default
-    int mStrokeMaterial = -1;                 ///< of the open stroke
+    std::vector<std::filesystem::path> mFiles; ///< of each, or empty
+    std::vector<std::uint64_t> mSaved;         ///< Document::contentId() of what is in the file
+    std::optional<std::size_t> mHistoryBytes;  ///< of each; else their default
+    int mStrokeMaterial = -1;                  ///< of the open stroke
     subedit::StrokeCommand mStroke;
     bool mStrokeInverted = false;
     bool mStrokeSelects = false; ///< its paint is selection
@@ -194,7 +221,6 @@ private:
     std::uint64_t mPictureRevision = 1;
     std::uint64_t mWorldRevision = 0;
     std::uint64_t mMaterialRevision = 0;
-    std::uint64_t mSavedRevision = 0;
 };
 
 // Each file of commands registers its own (camera_commands.cpp and so on).

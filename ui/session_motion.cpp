@@ -127,30 +127,20 @@ const std::shared_ptr<const World>& Session::shownWorld() {
     return mShownWorld;
 }
 
-std::size_t Session::editCount() const {
-    std::size_t count = 0;
-    for (int i = 0; i < materialCount(); ++i) {
-        count += document(i) != nullptr ? document(i)->commandCount() : 0;
-    }
-    return count;
-}
-
 std::optional<std::string> Session::undoTitle() const {
     if (const std::string* const title = mMotionHistory.undoTitle(editCount())) {
         return *title;
     }
-    const subedit::Document* const painted = activeDocument();
-    return painted != nullptr && painted->canUndo() ? std::optional(painted->undoTitle())
-                                                    : std::nullopt;
+    const int material = latestEdited();
+    return material >= 0 ? std::optional(document(material)->undoTitle()) : std::nullopt;
 }
 
 std::optional<std::string> Session::redoTitle() const {
     if (const std::string* const title = mMotionHistory.redoTitle(editCount())) {
         return *title;
     }
-    const subedit::Document* const painted = activeDocument();
-    return painted != nullptr && painted->canRedo() ? std::optional(painted->redoTitle())
-                                                    : std::nullopt;
+    const int material = nextRedone();
+    return material >= 0 ? std::optional(document(material)->redoTitle()) : std::nullopt;
 }
 
 bool Session::undoMotion() {

@@ -257,6 +257,11 @@ void ViewportTools::pressSurface(const SurfacePoint& hit, const InputEvent& even
         mSession.perform({"tool.choose", {{"name", "paint"}}});
         return;
     }
+    const auto activate = [this](int material) {
+        if (material != mSession.activeMaterial) {
+            mSession.perform({"material.activate", {{"material", material}}});
+        }
+    };
     const bool isShifted = (event.modifiers & GLFW_MOD_SHIFT) != 0;
     const nlohmann::json place{{"position", toJson(hit.positionMm)},
                                {"normal", toJson(hit.shadingNormal)}};
@@ -265,19 +270,19 @@ void ViewportTools::pressSurface(const SurfacePoint& hit, const InputEvent& even
         Command select{"select.similar", place};
         select.arguments["tolerance"] = paint.tolerance;
         select.arguments["mode"] = isShifted ? "add" : "replace";
-        mSession.activeMaterial = hit.material;
+        activate(hit.material);
         mSession.perform(select);
         return;
     }
     if (paint.tool == Tool::Stamp) {
         Command stamp{"stamp.place", place};
         stamp.arguments["inverted"] = mInverted;
-        mSession.activeMaterial = hit.material;
+        activate(hit.material);
         mSession.perform(stamp);
         return;
     }
     if (paint.tool == Tool::Scribble) {
-        mSession.activeMaterial = hit.material;
+        activate(hit.material);
         mDrag = Drag::Scribble;
         mScribble.clear();
         dragOverSurface(event.positionPx, rect);

@@ -7,9 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <optional>
 
 namespace celadon::app {
 
@@ -98,62 +96,6 @@ private:
 json toJson(const glm::dvec3& v) {
     const auto rounded = [](double x) { return std::round(x * 1e6) / 1e6; };
     return {rounded(v.x), rounded(v.y), rounded(v.z)};
-}
-
-std::optional<std::size_t> toIndex(const std::string& text) {
-    std::size_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc{} && end == text.data() + text.size() ? std::optional(value)
-                                                                    : std::nullopt;
-}
-
-/// Members of `made` replace or join those of `target`, objects member by member.
-void mergeInto(json& target, const json& made) {
-    for (const auto& [key, value] : made.items()) {
-        if (value.is_object() && target.contains(key) && target[key].is_object()) {
-            mergeInto(target[key], value);
-        } else {
-            target[key] = value;
-        }
-    }
-}
-
-/// In the place of a material, which keeps its name and what `made` does not speak of.
-void putInto(json& target, const json& made) {
-    const json name = target.value("name", made["name"]);
-    mergeInto(target, made);
-    target["name"] = name;
-}
-
-/// All materials, and one for meshes that have none.
-void putOnAll(json& document, const json& made) {
-    json& materials = document["materials"];
-    for (json& target : materials) {
-        putInto(target, made);
-    }
-    bool isNeeded = false;
-    for (json& mesh : document["meshes"]) {
-        for (json& primitive : mesh["primitives"]) {
-            if (!primitive.contains("material")) {
-                primitive["material"] = materials.size();
-                isNeeded = true;
-            }
-        }
-    }
-    if (isNeeded) {
-        materials.push_back(made);
-    }
-}
-
-/// By index or name; null if there is none.
-json* findGltfMaterial(json& materials, const std::string& material) {
-    const std::optional<std::size_t> index = toIndex(material);
-    for (std::size_t i = 0; i < materials.size(); ++i) {
-        if (index ? i == *index : materials[i].value("name", "") == material) {
-            return &materials[i];
-        }
-    }
-    return nullptr;
 }
 
 } // namespace
@@ -247,40 +189,6 @@ json gltfMaterial(const NearestParameters& nearest, const std::string& name,
                                 {"attenuationColor", toJson(attenuation)}}}};
     material["extras"] = {{"subedit", reference}};
     return material;
-}
-
-void mergeGltfMaterial(json& document, const std::string& file, const std::string& material,
-                       const json& made) {
-    const auto refuse = [&](const std::string& reason) {
-        throw InputError(fmt::format("'{}'", file), reason);
-    };
-    try {
-        if (document.at("asset").at("version") != "2.0") {
-            refuse(fmt::format("is glTF {}, not 2.0", document["asset"]["version"].dump()));
-        }
-        json& materials = document["materials"];
-        if (materials.is_null()) {
-            materials = json::array();
-        }
-        if (material.empty()) {
-            putOnAll(document, made);
-        } else if (json* target = findGltfMaterial(materials, material)) {
-            putInto(*target, made);
-        } else {
-            refuse(fmt::format("has no material '{}' among its {}", material, materials.size()));
-        }
-        json& used = document["extensionsUsed"];
-        if (used.is_null()) {
-            used = json::array();
-        }
-        for (const auto& [extension, value] : made["extensions"].items()) {
-            if (std::find(used.begin(), used.end(), extension) == used.end()) {
-                used.push_back(extension);
-            }
-        }
-    } catch (const json::exception& error) {
-        refuse(fmt::format("is not laid out as glTF 2.0 is ({})", error.what()));
-    }
 }
 
 std::vector<std::string> whatIsLost(const NearestParameters& nearest, Convention convention) {

@@ -38,14 +38,6 @@ enum class Convention {
 [[nodiscard]] nlohmann::json gltfMaterial(const subedit::NearestParameters& nearest,
                                           const std::string& name, const std::string& reference);
 
-/// Puts it in the place of a material of a glTF document, whose other members (textures, normal
-/// map, other extensions) stay, and lists the extensions as used.
-/// @param file     that the document was read from, for messages
-/// @param material index or name; empty: all materials, and one for meshes that have none
-/// @throws InputError if there is no such material, or the document is not glTF 2.0
-void mergeGltfMaterial(nlohmann::json& document, const std::string& file,
-                       const std::string& material, const nlohmann::json& made);
-
 /// What a standard material cannot say of this one, a line each.
 [[nodiscard]] std::vector<std::string> whatIsLost(const subedit::NearestParameters& nearest,
                                                   Convention convention);

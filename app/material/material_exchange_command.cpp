@@ -5,6 +5,7 @@
 #include "app/option_takers.h"
 #include "app/profile/profile_output.h"
 #include "renderer/output/atomic_file.h"
+#include "renderer/scene/merge_gltf_material.h"
 #include "subedit/errors.h"
 #include "subedit/map/material_file.h"
 #include "subedit/map/shipped_materials.h"
@@ -97,7 +98,7 @@ json exportGltf(const ExportOptions& options, const NearestParameters& nearest,
                          "write it beside the other");
     }
     json document = readJson(options.into);
-    mergeGltfMaterial(document, options.into, options.gltfMaterial, made);
+    loaders::mergeGltfMaterial(document, options.into, options.gltfMaterial, made);
     return document;
 }
 

@@ -1,5 +1,6 @@
 #include "renderer/scene/load_deformers.h"
 
+#include "renderer/scene/gltf_file.h"
 #include "renderer/scene/load_bytes.h"
 #include "renderer/scene/load_gltf_container.h"
 #include "subedit/errors.h"
@@ -273,19 +274,6 @@ nlohmann::json json(const AnimatedDeformer& deformer) {
     return result;
 }
 
-std::string littleEndian(std::size_t value) {
-    std::string bytes;
-    for (int k = 0; k < 4; ++k) {
-        bytes += static_cast<char>(value >> (8 * k) & 0xff);
-    }
-    return bytes;
-}
-
-std::string padded(std::string bytes, char with) {
-    bytes.resize((bytes.size() + 3) / 4 * 4, with);
-    return bytes;
-}
-
 } // namespace
 
 DeformerStack deformersOf(const JsonElement& owner) {
@@ -324,33 +312,37 @@ nlohmann::json deformersJson(const DeformerStack& stack) {
     return {{"deformers", std::move(list)}};
 }
 
-std::string gltfWithDeformers(const std::filesystem::path& file, std::string_view content,
-                              const DeformerStack& stack) {
-    const GltfContainer container = splitContainer(file, content);
-    nlohmann::json root = parseJson(file, container.json);
+void putDeformers(nlohmann::json& root, const std::filesystem::path& file,
+                  const DeformerStack& stack) {
     nlohmann::json* const scenes = root.contains("scenes") ? &root["scenes"] : nullptr;
     const auto index = root.value("scene", 0u);
     if (scenes == nullptr || !scenes->is_array() || index >= scenes->size() ||
         !(*scenes)[index].is_object()) {
+        if (stack.empty()) {
+            return;
+        }
         throw InputError(quoted(file), "has no scene to put the deformers in",
                          "export the model with a scene");
     }
     nlohmann::json& scene = (*scenes)[index];
+    if (stack.empty()) {
+        if (scene.contains("extras") && scene["extras"].is_object()) {
+            scene["extras"].erase("celadon");
+        }
+        return;
+    }
     if (!scene["extras"].is_object()) {
         scene["extras"] = nlohmann::json::object();
     }
     scene["extras"]["celadon"] = deformersJson(stack);
-    if (!content.starts_with("glTF")) {
-        return root.dump(1) + '\n';
-    }
-    const std::string json = padded(root.dump(), ' ');
-    std::string chunks = littleEndian(json.size()) + "JSON" + json;
-    if (container.binary) {
-        const std::string binary = padded(std::string(*container.binary), '\0');
-        chunks += littleEndian(binary.size()) + std::string("BIN\0", 4) + binary;
-    }
-    constexpr std::size_t kHeaderBytes = 12;
-    return "glTF" + littleEndian(2) + littleEndian(kHeaderBytes + chunks.size()) + chunks;
+}
+
+std::string gltfWithDeformers(const std::filesystem::path& file, std::string_view content,
+                              const DeformerStack& stack) {
+    const GltfContainer container = splitContainer(file, content);
+    nlohmann::json root = parseJson(file, container.json);
+    putDeformers(root, file, stack);
+    return content.starts_with("glTF") ? binaryGltf(root, container.binary) : root.dump(1) + '\n';
 }
 
 } // namespace celadon::loaders

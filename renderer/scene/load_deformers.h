@@ -21,6 +21,12 @@ namespace celadon::loaders {
 /// The object, such that deformersOf() gives the same stack back.
 [[nodiscard]] nlohmann::json deformersJson(const DeformerStack& stack);
 
+/// The deformers of a document's scene from now on; none: they go.
+/// @param file that it was read from, for messages
+/// @throws InputError: it has no scene
+void putDeformers(nlohmann::json& document, const std::filesystem::path& file,
+                  const DeformerStack& stack);
+
 /// A .gltf or .glb, as it is but for the deformers of its scene. Buffers and pictures beside the
 /// file are named as they were.
 /// @param content of the model file

@@ -4,10 +4,13 @@
 
 #include <fmt/format.h>
 #include <stb_image.h>
+#include <stb_image_write.h>
 
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <new>
+#include <vector>
 
 namespace celadon::loaders {
 
@@ -53,6 +56,27 @@ Image decodeImage(std::string_view bytes, const std::string& place) {
     }
     image.rgba.assign(decoded.get(), decoded.get() + pixels * 4);
     return image;
+}
+
+std::string encodePng(const Image& image) {
+    std::vector<std::uint8_t> rgb;
+    bool isOpaque = true;
+    for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+        isOpaque = isOpaque && image.rgba[i + 3] == 255;
+        rgb.insert(rgb.end(), {image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]});
+    }
+    const int channels = isOpaque ? 3 : 4;
+    std::string bytes;
+    const auto append = [](void* to, void* data, int size) {
+        static_cast<std::string*>(to)->append(static_cast<const char*>(data),
+                                              static_cast<std::size_t>(size));
+    };
+    if (stbi_write_png_to_func(append, &bytes, image.width, image.height, channels,
+                               isOpaque ? rgb.data() : image.rgba.data(),
+                               image.width * channels) == 0) {
+        throw std::bad_alloc(); // nothing else can go wrong in memory
+    }
+    return bytes;
 }
 
 } // namespace celadon::loaders

@@ -31,6 +31,7 @@ struct World {
     double millimetersPerUnit = 1.0;
     BoundingSphere scatteringSphere; ///< mm, over scattering meshes; its diameter is R_w
     BoundingSphere sceneSphere;      ///< mm, over everything
+    bool hasAutomaticAtlas = false;  ///< texture coordinates that the model did not have
     std::vector<std::string> warnings;
     std::shared_ptr<const Rig> rig; ///< of animations, in model units; null: none
 };

@@ -22,6 +22,7 @@ void addMissingUvs(World& world) {
     if (meshes.empty()) {
         return;
     }
+    world.hasAutomaticAtlas = true;
     const Atlas atlas = generateAtlas(meshes);
     // Densities that differ by so much show, on a map of even detail.
     constexpr double kStretched = 4.0;

@@ -9,11 +9,12 @@
 
 namespace celadon {
 
-/// Writes a world at rest as glTF 2.0: FILE.gltf, and FILE.bin beside it, in meters. Positions,
-/// normals and the first texture coordinates are those of the world, so that a map that was painted
-/// on an automatic atlas fits. Opaque parts keep base color, metalness, roughness and emission;
-/// their textures, skins and animations are left out.
-/// @param scattering of each of World::materials: a glTF material, with `extras.subedit`
+/// Writes a world at rest as glTF 2.0, in meters: FILE.glb, or FILE.gltf with FILE.bin beside it.
+/// Positions, normals and texture coordinates are those of the world, so that a map that was
+/// painted on an automatic atlas fits. Looks keep what Celadon reads of them, textures (as PNG)
+/// included; skins, animations, cameras and lights are left out.
+/// @param scattering of each of World::materials: a glTF material, with `extras.subedit`; textures
+///                   of the look that a part has besides join it
 /// @param extras    of the scene: deformers, in meters
 /// @throws OutputError; files that were there before are then untouched, or whole and new
 void writeGltf(const World& world, const std::vector<nlohmann::json>& scattering,

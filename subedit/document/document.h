@@ -11,6 +11,7 @@
 
 #include <bitset>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -94,6 +95,15 @@ public:
     /// Of the command that undo() or redo() would take back or repeat; empty if none.
     [[nodiscard]] std::string undoTitle() const;
     [[nodiscard]] std::string redoTitle() const;
+    /// When the command was first done that undo() would take back, or redo() repeat: commands of
+    /// all documents are numbered in their order. 0: there is none.
+    [[nodiscard]] std::uint64_t undoOrder() const;
+    [[nodiscard]] std::uint64_t redoOrder() const;
+    /// What was undone can no longer be redone.
+    void dropUndone();
+    /// The same number, the same material: that of the latest command in effect which is more than
+    /// a selection; 0 as opened.
+    [[nodiscard]] std::uint64_t contentId() const;
     /// Commands in effect, oldest first: replayed on the material as opened they give this one.
     [[nodiscard]] std::vector<EditCommand> commands() const;
     [[nodiscard]] std::size_t commandCount() const { return mDone; }

@@ -67,12 +67,18 @@ void Document::accountFor(Entry& entry, Change&& change) {
     mOtherBytes += entry.accounted;
 }
 
-void Document::commit(std::unique_ptr<Entry> entry) {
+void Document::dropUndone() {
     for (std::size_t e = mDone; e < mHistory.size(); ++e) {
         mProfileBytes -= mHistory[e]->profileBytes();
         mOtherBytes -= mHistory[e]->accounted;
     }
     mHistory.resize(mDone);
+}
+
+void Document::commit(std::unique_ptr<Entry> entry) {
+    static std::atomic<std::uint64_t> latest = 0;
+    dropUndone();
+    entry->order = ++latest;
     entry->accounted = entry->otherBytes();
     mProfileBytes += entry->profileBytes();
     mOtherBytes += entry->accounted;
@@ -348,6 +354,23 @@ std::string Document::undoTitle() const {
 
 std::string Document::redoTitle() const {
     return canRedo() ? commandTitle(mHistory[mDone]->command) : std::string();
+}
+
+std::uint64_t Document::undoOrder() const {
+    return canUndo() ? mHistory[mDone - 1]->order : 0;
+}
+
+std::uint64_t Document::redoOrder() const {
+    return canRedo() ? mHistory[mDone]->order : 0;
+}
+
+std::uint64_t Document::contentId() const {
+    for (std::size_t e = mDone; e-- > 0;) {
+        if (!mHistory[e]->isSelection()) {
+            return mHistory[e]->order;
+        }
+    }
+    return 0;
 }
 
 std::vector<EditCommand> Document::commands() const {

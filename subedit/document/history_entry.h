@@ -27,6 +27,7 @@ struct Document::Entry {
     WeightMask selectionBefore;     ///< of a SelectCommand
     std::vector<Growth> growth;     ///< done before the texels were changed, in order
     std::vector<TileBefore> before; ///< after the growth; tiles ascending
+    std::uint64_t order = 0;        ///< among the commands of all documents
     std::size_t accounted = 0;      ///< otherBytes() as the history counts it
 
     [[nodiscard]] bool isSelection() const {

@@ -1,4 +1,5 @@
 #include "app/material/exchange_json.h"
+#include "renderer/scene/merge_gltf_material.h"
 #include "subedit/errors.h"
 #include "subedit/radius_map.h"
 
@@ -122,21 +123,21 @@ TEST(ExchangeJson, MergingLeavesTheRestOfADocument) {
         {"extensionsUsed", {"KHR_materials_ior"}},
         {"materials", {{{"name", "skin"}, {"normalTexture", {{"index", 3}}}}, {{"name", "cloth"}}}},
         {"meshes", json::array()}};
-    mergeGltfMaterial(document, "m.gltf", "skin", made);
+    loaders::mergeGltfMaterial(document, "m.gltf", "skin", made);
     EXPECT_EQ(document["materials"][0]["name"], "skin");
     EXPECT_EQ(document["materials"][0]["normalTexture"]["index"], 3);
     EXPECT_EQ(document["materials"][0]["extras"]["subedit"], "w.exr");
     EXPECT_FALSE(document["materials"][1].contains("extras"));
     EXPECT_EQ(document["extensionsUsed"].size(), 3u);
-    mergeGltfMaterial(document, "m.gltf", "1", made);
+    loaders::mergeGltfMaterial(document, "m.gltf", "1", made);
     EXPECT_TRUE(document["materials"][1].contains("extras"));
-    EXPECT_THROW(mergeGltfMaterial(document, "m.gltf", "7", made), InputError);
-    EXPECT_THROW(mergeGltfMaterial(document, "m.gltf", "hair", made), InputError);
+    EXPECT_THROW(loaders::mergeGltfMaterial(document, "m.gltf", "7", made), InputError);
+    EXPECT_THROW(loaders::mergeGltfMaterial(document, "m.gltf", "hair", made), InputError);
     json old = {{"asset", {{"version", "1.0"}}}};
-    EXPECT_THROW(mergeGltfMaterial(old, "m.gltf", "", made), InputError);
+    EXPECT_THROW(loaders::mergeGltfMaterial(old, "m.gltf", "", made), InputError);
 
     json bare = {{"asset", {{"version", "2.0"}}}, {"meshes", {{{"primitives", {{{"mode", 4}}}}}}}};
-    mergeGltfMaterial(bare, "m.gltf", "", made);
+    loaders::mergeGltfMaterial(bare, "m.gltf", "", made);
     EXPECT_EQ(bare["meshes"][0]["primitives"][0]["material"], 0);
     EXPECT_EQ(bare["materials"].size(), 1u);
 }

@@ -17,8 +17,33 @@
 namespace celadon::ui {
 namespace {
 
+/// Two balls 60 mm apart in x, each of a material of its own that the model names.
+World readTwoBalls() {
+    Scene scene = makeBuiltin("sphere");
+    Scene second = makeBuiltin("sphere");
+    scene.meshes.resize(1);
+    const double radius = boundingSphere(scene).radius;
+    scene.meshes.push_back(std::move(second.meshes.front()));
+    for (glm::vec3& position : scene.meshes[1].positions) {
+        position.x += static_cast<float>(3.0 * radius);
+    }
+    scene.materials.assign(2, scene.materials.front());
+    scene.meshes[0].material = 0;
+    scene.meshes[1].material = 1;
+    std::vector<MaterialPointer> named;
+    for (const char* name : {"left", "right"}) {
+        scene.materials[named.size()].subedit = std::string(name) + ".subedit.exr";
+        const NamedProfile plain{name, diffusionProfile(glm::vec3(0.6f), glm::vec3(2.0f))};
+        named.push_back(std::make_shared<subedit::MaterialMap>(homogeneousMaterial(plain, 1.3f)));
+    }
+    return buildWorld(std::move(scene), nullptr, named, nullptr, {20.0 / radius, std::nullopt});
+}
+
 /// A ball of one plain profile, 40 mm across.
 World readBall(const OpenRequest& request) {
+    if (request.model == "two balls") {
+        return readTwoBalls();
+    }
     if (request.model != "ball") {
         throw InputError("'" + request.model + "'", "cannot be opened");
     }
@@ -42,17 +67,18 @@ protected:
         session.execute({"file.open", {{"model", "ball"}}});
     }
 
-    /// Across the side of the ball that faces +z.
-    void paintStroke() {
+    /// Across the side of a ball that faces +z.
+    void paintStroke(int material = 0) {
         subedit::StrokePoint point;
-        const glm::vec3 center(session.world().scatteringSphere.center);
+        const WorldMesh& ball = session.world().meshes[static_cast<std::size_t>(material)];
+        const glm::vec3 center(boundingSphere(std::array{&ball.mesh}).center);
         const auto at = [&](float x) {
             const glm::vec3 n = glm::normalize(glm::vec3(x, 0.1f, 1.0f));
             point.positionMm = center + 20.0f * n;
             point.normal = n;
             return point;
         };
-        session.beginStroke(0, at(-0.2f), false);
+        session.beginStroke(material, at(-0.2f), false);
         for (int i = 1; i <= 8; ++i) {
             session.addStrokePoint(at(-0.2f + 0.05f * static_cast<float>(i)));
         }
@@ -97,6 +123,63 @@ TEST_F(SessionTest, UndoGivesTheBytesBackAndRedoTheStroke) {
     EXPECT_EQ(map().logProfile, before);
     session.execute({"edit.redo"});
     EXPECT_EQ(map().logProfile, painted);
+}
+
+TEST_F(SessionTest, TwoMaterialsAreUndoneInOrderAndSavedEachForItself) {
+    session.execute({"file.open", {{"model", "two balls"}}});
+    ASSERT_EQ(session.materialCount(), 2);
+    EXPECT_EQ(session.materialFile(0), "left.subedit.exr");
+    EXPECT_EQ(session.materialFile(1), "right.subedit.exr");
+    recorded.clear();
+    const auto bytes = [this](int i) { return session.document(i)->material().logProfile; };
+    const std::vector<float> left = bytes(0);
+    const std::vector<float> right = bytes(1);
+    paintStroke(0);
+    const std::vector<float> leftPainted = bytes(0);
+    EXPECT_TRUE(session.isModified(0));
+    EXPECT_FALSE(session.isModified(1));
+    paintStroke(1);
+    EXPECT_NE(leftPainted, left);
+    EXPECT_NE(bytes(1), right);
+    EXPECT_EQ(bytes(0), leftPainted);
+    // The latest edit goes first, whichever material is active.
+    session.execute({"material.activate", {{"material", 0}}});
+    session.execute({"edit.undo"});
+    EXPECT_EQ(bytes(1), right);
+    EXPECT_EQ(bytes(0), leftPainted);
+    EXPECT_FALSE(session.isModified(1));
+    session.execute({"edit.undo"});
+    EXPECT_EQ(bytes(0), left);
+    EXPECT_FALSE(session.isModified());
+    session.execute({"edit.redo"});
+    EXPECT_EQ(bytes(0), leftPainted);
+    paintStroke(0);
+    session.execute({"edit.redo"}); // the right one's is gone with the new stroke
+    EXPECT_EQ(bytes(1), right);
+    paintStroke(1);
+    // A save clears what it saved.
+    const test::TemporaryFolder folder;
+    const auto save = [&](Session& of, int material, const std::string& name) {
+        of.execute({"file.save", {{"file", (folder / name).string()}, {"material", material}}});
+    };
+    save(session, 1, "b.subedit.exr");
+    EXPECT_FALSE(session.isModified(1));
+    EXPECT_TRUE(session.isModified(0));
+    EXPECT_EQ(session.materialFile(0), "left.subedit.exr");
+    save(session, 0, "a.subedit.exr");
+    EXPECT_FALSE(session.isModified());
+    // And a replay does the same to the same.
+    Session replayed({readBall, describe, true});
+    replayed.execute({"file.open", {{"model", "two balls"}}});
+    for (const Command& command : recorded) {
+        if (command.name != "file.save") {
+            replayed.execute(command);
+        }
+    }
+    save(replayed, 0, "a2.subedit.exr");
+    save(replayed, 1, "b2.subedit.exr");
+    EXPECT_EQ(test::readText(folder / "a2.subedit.exr"), test::readText(folder / "a.subedit.exr"));
+    EXPECT_EQ(test::readText(folder / "b2.subedit.exr"), test::readText(folder / "b.subedit.exr"));
 }
 
 TEST_F(SessionTest, ReplayWritesTheSameFileByteForByte) {

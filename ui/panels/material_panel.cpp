@@ -27,7 +27,9 @@ void drawCurrent(Session& session) {
         for (int i = 0; i < session.materialCount(); ++i) {
             const subedit::Document* const other = session.document(i);
             const std::string label =
-                fmt::format("{} {}", i + 1, other != nullptr ? other->material().name : "");
+                fmt::format("{} {}{}###{}", i + 1,
+                            other != nullptr ? materialLabel(other->material().name) : "",
+                            session.isModified(i) ? " (not saved)" : "", i);
             if (ImGui::RadioButton(label.c_str(), session.activeMaterial == i)) {
                 session.perform({"material.activate", {{"material", i}}});
             }

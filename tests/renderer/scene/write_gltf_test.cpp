@@ -1,12 +1,18 @@
 #include "renderer/scene/builtin.h"
 #include "renderer/scene/load_scene.h"
+#include "renderer/scene/rewrite_gltf.h"
+#include "renderer/scene/rig.h"
 #include "renderer/scene/write_gltf.h"
 #include "subedit/errors.h"
 #include "tests/support/materials.h"
 #include "tests/support/temporary_folder.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <cstdlib>
 
 namespace celadon {
 namespace {
@@ -39,6 +45,151 @@ TEST(WriteGltf, WhatIsWrittenReadsBack) {
     const SurfaceMaterial& look = scene.materials[static_cast<std::size_t>(after.material)];
     ASSERT_TRUE(look.subedit);
     EXPECT_EQ(look.subedit->filename(), "wax.subedit.exr");
+}
+
+/// A vase whose look has all that a look can have.
+TEST(WriteGltf, LooksKeepTheirTextures) {
+    World world = vaseWorld();
+    WorldMesh& part = world.meshes.front();
+    part.scattering = -1;
+    Image picture{"bark", 4, 2, {}};
+    for (int i = 0; i < 32; ++i) {
+        picture.rgba.push_back(static_cast<std::uint8_t>(i * 7));
+    }
+    Image opaque = picture;
+    for (std::size_t i = 3; i < opaque.rgba.size(); i += 4) {
+        opaque.rgba[i] = 255;
+    }
+    world.images = {picture, opaque};
+    SurfaceMaterial look;
+    look.name = "wood";
+    look.baseColor = {0.2f, 0.4f, 0.6f, 0.5f};
+    look.emission = {3.0f, 1.5f, 0.0f};
+    look.roughness = 0.25f;
+    look.metallic = 0.75f;
+    look.ior = 1.7f;
+    look.doubleSided = true;
+    look.alphaCutoff = 0.3f;
+    look.baseColorTexture.image = 0;
+    look.baseColorTexture.wrapU = Wrap::ClampToEdge;
+    look.baseColorTexture.wrapV = Wrap::MirroredRepeat;
+    look.baseColorTexture.nearest = true;
+    const float c = std::cos(0.4f), s = std::sin(0.4f);
+    look.baseColorTexture.transform =
+        glm::mat3(glm::vec3(2.0f * c, -2.0f * s, 0.0f), glm::vec3(3.0f * s, 3.0f * c, 0.0f),
+                  glm::vec3(0.1f, 0.2f, 1.0f));
+    look.metallicRoughnessTexture.image = 1;
+    look.normalTexture.image = 1;
+    look.normalScale = 0.5f;
+    look.emissiveTexture.image = 0;
+    world.looks.assign(world.looks.size(), look);
+    const test::TemporaryFolder folder;
+    for (const char* name : {"vase.gltf", "vase.glb"}) {
+        writeGltf(world, {{{"name", "wax"}}}, {}, folder / name);
+        const Scene scene = loadScene((folder / name).string());
+        EXPECT_TRUE(scene.warnings.empty());
+        ASSERT_EQ(scene.images.size(), 2u);
+        EXPECT_EQ(scene.images[0].rgba, picture.rgba);
+        EXPECT_EQ(scene.images[1].rgba, opaque.rgba);
+        EXPECT_EQ(scene.images[0].name, "bark");
+        const SurfaceMaterial& back =
+            scene.materials[static_cast<std::size_t>(scene.meshes.front().material)];
+        EXPECT_EQ(back.name, "wood");
+        EXPECT_EQ(back.baseColor, look.baseColor);
+        EXPECT_LT(glm::distance(back.emission, look.emission), 1e-5f);
+        EXPECT_EQ(back.metallic, look.metallic);
+        EXPECT_EQ(back.roughness, look.roughness);
+        EXPECT_EQ(back.ior, look.ior);
+        EXPECT_TRUE(back.doubleSided);
+        EXPECT_EQ(back.alphaCutoff, look.alphaCutoff);
+        EXPECT_EQ(back.normalScale, look.normalScale);
+        EXPECT_EQ(back.baseColorTexture.wrapU, Wrap::ClampToEdge);
+        EXPECT_EQ(back.baseColorTexture.wrapV, Wrap::MirroredRepeat);
+        EXPECT_TRUE(back.baseColorTexture.nearest);
+        for (int k = 0; k < 3; ++k) {
+            EXPECT_LT(glm::distance(back.baseColorTexture.transform[k],
+                                    look.baseColorTexture.transform[k]),
+                      1e-5f);
+        }
+        EXPECT_EQ(back.metallicRoughnessTexture.image, 1);
+        EXPECT_EQ(back.normalTexture.image, 1);
+        EXPECT_EQ(back.emissiveTexture.image, 0);
+    }
+}
+
+void expectSame(const Scene& before, const Scene& after) {
+    ASSERT_EQ(after.meshes.size(), before.meshes.size());
+    for (std::size_t m = 0; m < before.meshes.size(); ++m) {
+        EXPECT_EQ(after.meshes[m].positions, before.meshes[m].positions);
+        EXPECT_EQ(after.meshes[m].normals, before.meshes[m].normals);
+        EXPECT_EQ(after.meshes[m].uvs, before.meshes[m].uvs);
+        EXPECT_EQ(after.meshes[m].colors, before.meshes[m].colors);
+        EXPECT_EQ(after.meshes[m].indices, before.meshes[m].indices);
+        EXPECT_EQ(after.meshes[m].material, before.meshes[m].material);
+    }
+    ASSERT_EQ(after.images.size(), before.images.size());
+    for (std::size_t i = 0; i < before.images.size(); ++i) {
+        EXPECT_EQ(after.images[i].rgba, before.images[i].rgba);
+    }
+    EXPECT_EQ(after.cameras.size(), before.cameras.size());
+    EXPECT_EQ(after.lights.size(), before.lights.size());
+    ASSERT_EQ(after.rig != nullptr, before.rig != nullptr);
+    if (before.rig != nullptr) {
+        EXPECT_EQ(after.rig->animations.size(), before.rig->animations.size());
+    }
+}
+
+/// Models of others, written anew into another folder: all is there, whatever lay beside them.
+TEST(RewriteGltf, KeepsAllButMaterialsAndDeformers) {
+    const char* const models = std::getenv("CELADON_MODELS");
+    if (models == nullptr) {
+        GTEST_SKIP() << "CELADON_MODELS names no folder";
+    }
+    const test::TemporaryFolder folder;
+    const nlohmann::json made = {{"name", "wax"},
+                                 {"extensions", {{"KHR_materials_ior", {{"ior", 1.3}}}}},
+                                 {"extras", {{"subedit", "wax.subedit.exr"}}}};
+    for (const char* name :
+         {"CesiumMan.glb", "MorphPrimitivesTest.glb", "Suzanne/Suzanne.gltf",
+          "TextureTransformTest/TextureTransformTest.gltf", "SimpleInstancing.glb",
+          "LightsPunctualLamp/LightsPunctualLamp.gltf", "Cameras_embedded.gltf"}) {
+        SCOPED_TRACE(name);
+        const std::filesystem::path source = std::filesystem::path(models) / "gltf" / name;
+        const Scene before = loadScene(source.string());
+        const auto used = static_cast<std::size_t>(before.meshes.front().material);
+        for (const char* output : {"out.gltf", "out.glb"}) {
+            EXPECT_THAT(loaders::rewriteGltf(source, {{{used, made}}, {}, 1.0}, folder / output),
+                        testing::IsEmpty());
+            const Scene after = loadScene((folder / output).string());
+            expectSame(before, after);
+            EXPECT_EQ(after.warnings.size(), before.warnings.size());
+            const SurfaceMaterial& look = after.materials[used];
+            ASSERT_TRUE(look.subedit);
+            EXPECT_EQ(look.subedit->filename(), "wax.subedit.exr");
+            EXPECT_FLOAT_EQ(look.ior.value_or(0.0f), 1.3f);
+            EXPECT_EQ(look.normalTexture.image, before.materials[used].normalTexture.image);
+        }
+    }
+}
+
+TEST(RewriteGltf, ScalesWhatIsSkinnedAsWell) {
+    const char* const models = std::getenv("CELADON_MODELS");
+    if (models == nullptr) {
+        GTEST_SKIP() << "CELADON_MODELS names no folder";
+    }
+    const test::TemporaryFolder folder;
+    const auto source = std::filesystem::path(models) / "gltf/CesiumMan.glb";
+    const auto output = folder / "small.glb";
+    static_cast<void>(loaders::rewriteGltf(source, {{}, {}, 0.1}, output));
+    const Scene before = loadScene(source.string());
+    const Scene after = loadScene(output.string());
+    const double radius = boundingSphere(before).radius;
+    for (std::size_t i = 0; i < before.meshes.front().positions.size(); ++i) {
+        ASSERT_LT(glm::distance(after.meshes.front().positions[i],
+                                0.1f * before.meshes.front().positions[i]),
+                  1e-6 * radius);
+    }
+    ASSERT_EQ(after.rig->animations.size(), before.rig->animations.size());
 }
 
 TEST(WriteGltf, NamesAFolderThatIsMissing) {

@@ -1,0 +1,94 @@
+#include "renderer/scene/gltf_file.h"
+
+#include "subedit/errors.h"
+#include "subedit/pending_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace celadon::loaders {
+
+using nlohmann::json;
+
+namespace {
+
+std::string littleEndian(std::size_t value) {
+    std::string bytes;
+    for (int k = 0; k < 4; ++k) {
+        bytes += static_cast<char>(value >> (8 * k) & 0xff);
+    }
+    return bytes;
+}
+
+/// Chunks and views start on multiples of four.
+void pad(std::string& bytes, char with) {
+    bytes.resize((bytes.size() + 3) / 4 * 4, with);
+}
+
+std::string textOf(const json& document, int indent) {
+    return document.dump(indent, ' ', false, json::error_handler_t::replace);
+}
+
+/// What a URI may hold as it is (RFC 3986, unreserved); the rest is escaped.
+std::string escaped(const std::string& name) {
+    constexpr std::string_view kDigits = "0123456789ABCDEF";
+    constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                        "0123456789-._~";
+    std::string uri;
+    for (const char c : name) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (kPlain.find(c) != std::string_view::npos) {
+            uri.push_back(c);
+        } else {
+            uri += {'%', kDigits[byte >> 4], kDigits[byte & 15]};
+        }
+    }
+    return uri;
+}
+
+} // namespace
+
+std::string binaryGltf(const json& document, std::optional<std::string_view> buffer) {
+    std::string text = textOf(document, -1);
+    pad(text, ' ');
+    std::string chunks = littleEndian(text.size()) + "JSON" + text;
+    if (buffer) {
+        std::string bytes(*buffer);
+        pad(bytes, '\0');
+        chunks += littleEndian(bytes.size()) + std::string("BIN\0", 4) + bytes;
+    }
+    constexpr std::size_t kHeaderBytes = 12;
+    return "glTF" + littleEndian(2) + littleEndian(kHeaderBytes + chunks.size()) + chunks;
+}
+
+std::size_t appendView(json& document, std::string& buffer, std::string_view bytes) {
+    pad(buffer, '\0');
+    json& views = document["bufferViews"];
+    views.push_back({{"buffer", 0}, {"byteOffset", buffer.size()}, {"byteLength", bytes.size()}});
+    buffer.append(bytes);
+    return views.size() - 1;
+}
+
+void writeGltfFile(json document, const std::string& buffer, const std::filesystem::path& file) {
+    json only = {{"byteLength", buffer.size()}};
+    if (file.extension() == ".glb") {
+        document["buffers"] = json::array({only});
+        subedit::writeTextFile(file, binaryGltf(document, buffer));
+        return;
+    }
+    std::filesystem::path beside = file;
+    beside.replace_extension(".bin");
+    only["uri"] = escaped(beside.filename().string());
+    document["buffers"] = json::array({only});
+    subedit::writeTextFile(beside, buffer);
+    subedit::writeTextFile(file, textOf(document, 1) + "\n");
+}
+
+void checkGltfName(const std::filesystem::path& file) {
+    if (file.extension() != ".gltf" && file.extension() != ".glb") {
+        throw UsageError(fmt::format("'{}'", file.string()), "is no name of a glTF",
+                         "let it end in .gltf or .glb");
+    }
+}
+
+} // namespace celadon::loaders

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "renderer/scene/animated_deformer.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+/// A glTF file with other materials and deformers, and all else as it is: nodes, skins, morph
+/// targets, animations, cameras, lights, textures, and what Celadon does not know. Buffers and
+/// pictures, wherever they were, go into the one buffer of the new file, which may lie anywhere.
+namespace celadon::loaders {
+
+struct GltfChanges {
+    /// By index in the file, to be merged; one beyond the last: for meshes that wear none.
+    std::map<std::size_t, nlohmann::json> materials;
+    DeformerStack deformers; ///< of the scene, in units of the new file
+    double scale = 1.0;      ///< of everything
+};
+
+/// @return what had to stay behind, a line each
+/// @throws InputError: `source` is no glTF that Celadon reads; OutputError as writeGltfFile()
+std::vector<std::string> rewriteGltf(const std::filesystem::path& source,
+                                     const GltfChanges& changes,
+                                     const std::filesystem::path& target);
+
+} // namespace celadon::loaders
