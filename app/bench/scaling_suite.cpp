@@ -73,7 +73,7 @@ double triangleCount(const World& world) {
 }
 
 std::vector<Variation> variations(glm::ivec2 size) {
-    std::vector<Variation> all{{"range", "greatest R_P, bounding radii", {}},
+    std::vector<Variation> all{{"range", "greatest Rₚ, bounding radii", {}},
                                {"pixels", "pixels of the picture", {}},
                                {"texels", "texels of the light view", {}},
                                {"triangles", "triangles", {}}};

@@ -26,6 +26,11 @@ void checkRange(const std::string& option, const std::string& text, const ImageM
         for (int channel = 0; channel < 3; ++channel) {
             const float value = map.values[i][channel];
             if (!(value >= low && value <= high)) {
+                if (parseRgb(text)) {
+                    throw UsageError(fmt::format("{} {}", option, text),
+                                     fmt::format("{} is {}, not in [{}, {}]", channelName(channel),
+                                                 value, low, high));
+                }
                 const auto width = static_cast<std::size_t>(map.width);
                 throw InputError(fmt::format("{} '{}'", option, text),
                                  fmt::format("{} is {} at pixel ({}, {}), not in [{}, {}]",
@@ -33,6 +38,17 @@ void checkRange(const std::string& option, const std::string& text, const ImageM
                                              high));
             }
         }
+    }
+}
+
+void checkMapMemory(const std::string& command, double texels, int segments) {
+    constexpr double kMostBytes = 4e9;
+    const double bytes = texels * (segments + 1) * 3 * sizeof(float);
+    if (bytes > kMostBytes) {
+        throw UsageError(command,
+                         fmt::format("{:.3g} million texels of {} segments are {:.1f} GB",
+                                     texels * 1e-6, segments, bytes * 1e-9),
+                         "give a smaller --size");
     }
 }
 

@@ -81,13 +81,7 @@ void unifySizes(std::vector<NamedMap*> maps, int size, int segments) {
     }
     const int width = size > 0 ? size : (largest != nullptr ? largest->map.width : 1);
     const int height = size > 0 ? size : (largest != nullptr ? largest->map.height : 1);
-    const double values = static_cast<double>(width) * height * (segments + 1) * 3;
-    if (values * sizeof(float) > 4e9) {
-        throw UsageError("material bake",
-                         fmt::format("{} x {} texels of {} segments are {:.1f} GB", width, height,
-                                     segments, values * sizeof(float) / 1e9),
-                         "give a smaller --size");
-    }
+    checkMapMemory("material bake", static_cast<double>(width) * height, segments);
     for (NamedMap* map : maps) {
         if (map->map.width != width || map->map.height != height) {
             map->map = resizeImageMap(map->map, width, height);

@@ -1,3 +1,5 @@
+#include "app/log.h"
+#include "app/material/map_argument.h"
 #include "app/material/material_commands.h"
 #include "app/option_takers.h"
 #include "app/profile/profile_output.h"
@@ -10,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace celadon::app {
@@ -39,6 +42,26 @@ double meanAlbedo(const MaterialMap& map) {
     return sum / static_cast<double>(albedo.size());
 }
 
+/// The largest R_P of the map, mm.
+float largestRadiusMm(const MaterialMap& map) {
+    const std::vector<float> radii = effectiveRadiusMap(map);
+    return *std::ranges::max_element(radii);
+}
+
+/// What a shorter r_s did to the radii: their energy is kept, their reach is not.
+void warnOfCut(const MaterialMap& before, const MaterialMap& after) {
+    if (after.maxRadiusMm >= before.maxRadiusMm) {
+        return;
+    }
+    const float from = largestRadiusMm(before);
+    const float to = largestRadiusMm(after);
+    if (to < 0.99f * from) {
+        log::warning("r_s = {:.4g} mm cuts the profiles: the largest R_P falls from {:.4g} to "
+                     "{:.4g} mm",
+                     after.maxRadiusMm, from, to);
+    }
+}
+
 void runConvert(const ConvertOptions& options) {
     if (options.material.empty()) {
         throw UsageError("material convert", "no material is given",
@@ -49,7 +72,13 @@ void runConvert(const ConvertOptions& options) {
     }
     checkMaterialOutput("material convert", options.output);
     const MaterialMap map = readMaterial(findMaterial(options.material));
-    MaterialMap out = convertMaterial(map, options.settings);
+    const ConvertSettings& wanted = options.settings;
+    const double texels = static_cast<double>(wanted.width > 0 ? wanted.width : map.width) *
+                          (wanted.height > 0 ? wanted.height : map.height);
+    const int segments = wanted.segments > 0 ? wanted.segments : map.segments;
+    checkMapMemory("material convert", texels, segments);
+    MaterialMap out = convertMaterial(map, wanted);
+    warnOfCut(map, out);
     if (!options.name.empty()) {
         out.name = options.name;
     }

@@ -70,7 +70,7 @@ void runImport(const ImportOptions& options) {
     MaterialMap map = materialFromParameters(parameters, options.segments);
     map.name =
         options.name.empty() ? fs::path(options.output).stem().stem().string() : options.name;
-    writeMaterial(map, options.output);
+    writeMaterial(map, options.output, StoredPrecision::Float);
     for (const std::string& note : notes) {
         log::warning("'{}': {}", options.input, note);
     }

@@ -98,10 +98,11 @@ void drawDots(Drawing& drawing, const PlotArea& area, const Scale& x, const Scal
     }
 }
 
-void drawMarkers(Drawing& drawing, const PlotArea& area, const Scale& x, const Scale& y,
-                 const std::vector<Marker>& markers) {
-    double row = 0.0;         // vertical markers' words take turns so that neighbors do not collide
-    std::vector<Shape> words; // over all lines
+/// Draws the lines. @return their words, to be drawn over all other lines
+std::vector<Shape> drawMarkers(Drawing& drawing, const PlotArea& area, const Scale& x,
+                               const Scale& y, const std::vector<Marker>& markers) {
+    double row = 0.0; // vertical markers' words take turns so that neighbors do not collide
+    std::vector<Shape> words;
     for (const Marker& marker : markers) {
         const Scale& scale = marker.isHorizontal ? y : x;
         if (!scale.canShow(marker.value)) {
@@ -146,7 +147,7 @@ void drawMarkers(Drawing& drawing, const PlotArea& area, const Scale& x, const S
                                 marker.color});
         row = row > 60.0 ? 0.0 : row + kTickSize + 3.0;
     }
-    std::ranges::move(words, std::back_inserter(drawing.shapes));
+    return words;
 }
 
 } // namespace
@@ -169,7 +170,7 @@ Drawing drawChart(const LineChart& chart) {
     Drawing drawing{chart.size, {}};
     drawXAxis(drawing, area, x, chart.x.label);
     drawYAxis(drawing, area, y, chart.y.label);
-    drawMarkers(drawing, area, x, y, chart.markers);
+    std::vector<Shape> words = drawMarkers(drawing, area, x, y, chart.markers);
     std::vector<LegendEntry> entries;
     for (const Series& series : chart.series) {
         if (series.hasLine) {
@@ -181,6 +182,7 @@ Drawing drawChart(const LineChart& chart) {
                                series.dash, series.hasDots, false});
         }
     }
+    std::ranges::move(words, std::back_inserter(drawing.shapes));
     drawBorder(drawing, area);
     drawTitle(drawing, area, chart.title);
     drawLegend(drawing, area, entries, chart.legend);

@@ -7,6 +7,7 @@
 #include "subedit/presets.h"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
 
 namespace celadon::app {
 
@@ -45,20 +46,22 @@ void addMediumOptions(CLI::App& app, MediumOptions& o) {
               takeText(o.albedo));
     addOption(app, "--surface-albedo",
               {group, "R,G,B",
-               "Surface albedo for every model: alpha' is found that returns as much light"},
+               "Surface albedo for every model: alpha' is found with which the model returns as "
+               "much light"},
               takeText(o.surfaceAlbedo));
     addOption(app, "--mean-free-path", {group, "R,G,B", "1/sigma_t' in mm"},
               takeText(o.meanFreePath));
+    addOption(app, "--eta",
+              {group, "N",
+               fmt::format("Relative index of refraction, 0.5 to 4; default: the preset's, else {}",
+                           kDefaultEta)},
+              takeNumber(o.eta, {0.5, 4.0, false}));
     addOption(
-        app, "--eta",
-        {group, "N",
-         fmt::format("Relative index of refraction; default: the preset's, else {}", kDefaultEta)},
-        takeNumber(o.eta, {0.5, 4.0, false}));
-    addOption(app, "--g",
-              {group, "G",
-               "Mean cosine of scattering (Henyey-Greenstein), in (-1, 1); monte-carlo follows it, "
-               "the others know sigma_s' only; default 0"},
-              takeNumber(o.anisotropy, {-0.999, 0.999, false}));
+        app, "--g",
+        {group, "G",
+         "Mean cosine of scattering (Henyey-Greenstein), -0.999 to 0.999; monte-carlo follows it, "
+         "the others know sigma_s' only; default 0"},
+        takeNumber(o.anisotropy, {-0.999, 0.999, false}));
 }
 
 MediumSource mediumSource(const MediumOptions& o, const std::string& command) {
@@ -118,8 +121,9 @@ Medium makeMedium(const MediumOptions& o, MediumSource source) {
         break;
     }
     case MediumSource::Albedo:
-        medium = mediumFromAlbedo(requireRgb("--albedo", o.albedo, kSmallestAlbedo, 1.0),
-                                  givenMeanFreePath(o), eta);
+        medium = mediumFromAlbedo(
+            glm::max(requireRgb("--albedo", o.albedo, 0.0, 1.0), glm::dvec3(kSmallestAlbedo)),
+            givenMeanFreePath(o), eta);
         break;
     case MediumSource::SurfaceAlbedo: {
         glm::dvec3 albedo = givenAlbedo(o);

@@ -34,7 +34,8 @@ void addMediumOptions(CLI::App& app, MediumOptions& options);
 /// @throws UsageError unless it is exactly one, and complete
 [[nodiscard]] MediumSource mediumSource(const MediumOptions& options, const std::string& command);
 
-/// The medium, `--albedo` being alpha' of single scattering; `--surface-albedo` is inverted.
+/// The medium, `--albedo` being alpha' of single scattering; `--surface-albedo` is inverted,
+/// exactly for a half space.
 /// @throws UsageError
 [[nodiscard]] subedit::Medium makeMedium(const MediumOptions& options, MediumSource source);
 

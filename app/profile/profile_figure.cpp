@@ -139,7 +139,7 @@ private:
                          const Look& look) {
             const double radius = subedit::radiusHolding(curve, mSettings.energy);
             if (curve.total > 1e-6 && radius <= mTo) {
-                chart.markers.push_back({radius, fmt::format("R_P {:.3g} mm", radius), look.color});
+                chart.markers.push_back({radius, fmt::format("Rₚ {:.3g} mm", radius), look.color});
             }
         });
     }
@@ -153,18 +153,18 @@ private:
             if (curve.total <= 1e-6) {
                 return;
             }
-            Series series{fmt::format("{}: A = {:.3f}", look.label, curve.total),
-                          {},
-                          look.color,
-                          1.8,
-                          look.dash};
+            const double radius = subedit::radiusHolding(curve, mSettings.energy);
+            Series series{
+                fmt::format("{}: A = {:.3f}, Rₚ = {:.3g} mm", look.label, curve.total, radius),
+                {},
+                look.color,
+                1.8,
+                look.dash};
             for (const double r : mRadii) {
                 series.points.emplace_back(r, curve.energyWithin(r) / curve.total);
             }
             chart.series.push_back(series);
-            Series dot{"",
-                       {{subedit::radiusHolding(curve, mSettings.energy), mSettings.energy}},
-                       look.color};
+            Series dot{"", {{radius, mSettings.energy}}, look.color};
             dot.hasDots = true;
             chart.series.push_back(dot);
         });
@@ -176,7 +176,7 @@ private:
     [[nodiscard]] Drawing drawRatio() const {
         LineChart chart{fmt::format("Relative to {}", mProfiles.front().name),
                         radiusAxis(),
-                        {"P(r) / P(r) of the first", true, 0.1, 10.0},
+                        {fmt::format("P(r) / P(r) of {}", mProfiles.front().name), true, 0.1, 10.0},
                         {}};
         chart.legend = Legend::None;
         forEachCurve([&](const NamedProfile& profile, const subedit::RadialCurve& curve,

@@ -119,7 +119,8 @@ void runMake(const MakeOptions& options) {
         writeFigure(options, made, maxRadiusMm);
     } else {
         const FittedProfile fitted = fitProfile(made.curves, settings);
-        writeMaterial(oneTexel(fitted, made.eta, profileName(options)), options.output);
+        writeMaterial(oneTexel(fitted, made.eta, profileName(options)), options.output,
+                      StoredPrecision::Float);
         reportFit(made.curves, fitted);
         if (made.walk) {
             for (int channel = 0; channel < 3; ++channel) {

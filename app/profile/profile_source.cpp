@@ -11,6 +11,8 @@
 #include "subedit/models/quantized_diffusion.h"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <cmath>
 
@@ -41,6 +43,58 @@ RadialCurves normalizedDiffusion(const Medium& medium, std::optional<DiffusionFi
         }
     }
     return normalizedDiffusionProfile(halfSpaceTotal(medium), length, *fit);
+}
+
+/// The medium with which a model returns as much light as is wanted: alpha' by the method of
+/// Illinois (regula falsi that halves the end that stays), all channels at once. What a model
+/// cannot return stays what alpha' = 1 gives.
+/// @param medium of the same mean free paths
+Medium mediumReturning(const ModelOptions& model, const Medium& medium, const glm::dvec3& wanted) {
+    constexpr int kMostSteps = 40;
+    constexpr double kTolerance = 1e-5;
+    constexpr double kSmallest = 1e-9; // alpha' that a medium may have
+    const glm::dvec3 length = 1.0 / medium.reducedExtinction();
+    const auto missOf = [&](const glm::dvec3& albedo) {
+        const MadeProfile made = makeProfile(model, mediumFromAlbedo(albedo, length, medium.eta));
+        return glm::dvec3(made.curves[0].total, made.curves[1].total, made.curves[2].total) -
+               wanted;
+    };
+    glm::dvec3 low(kSmallest);
+    glm::dvec3 high(1.0);
+    glm::dvec3 missLow = missOf(low);
+    glm::dvec3 missHigh = missOf(high);
+    glm::dvec3 best = glm::mix(high, low, glm::greaterThanEqual(missLow, glm::dvec3(0.0)));
+    for (int step = 0; step < kMostSteps; ++step) {
+        for (int c = 0; c < 3; ++c) {
+            if (missLow[c] < 0.0 && missHigh[c] > 0.0) {
+                best[c] =
+                    (low[c] * missHigh[c] - high[c] * missLow[c]) / (missHigh[c] - missLow[c]);
+            }
+        }
+        const glm::dvec3 miss = missOf(best);
+        bool isFound = true;
+        for (int c = 0; c < 3; ++c) {
+            if (!(missLow[c] < 0.0 && missHigh[c] > 0.0) || std::abs(miss[c]) < kTolerance) {
+                continue;
+            }
+            isFound = false;
+            if (miss[c] < 0.0) {
+                low[c] = best[c];
+                missLow[c] = miss[c];
+                missHigh[c] *= 0.5;
+            } else {
+                high[c] = best[c];
+                missHigh[c] = miss[c];
+                missLow[c] *= 0.5;
+            }
+        }
+        if (isFound) {
+            break;
+        }
+    }
+    Medium found = mediumFromAlbedo(best, length, medium.eta);
+    found.anisotropy = medium.anisotropy;
+    return found;
 }
 
 RandomWalkResult walkWithProgress(const Medium& medium, RandomWalkSettings settings) {
@@ -131,7 +185,12 @@ MadeProfile makeProfile(const ModelOptions& options, const MediumOptions& medium
                 medium.eta.value_or(kDefaultEta),
                 {}};
     }
-    return makeProfile(options, makeMedium(medium, source));
+    const Medium made = makeMedium(medium, source);
+    // A random walk returns what a half space does but for its noise.
+    const bool isInverted =
+        source == MediumSource::SurfaceAlbedo && options.model != ProfileModel::MonteCarlo;
+    return makeProfile(options,
+                       isInverted ? mediumReturning(options, made, givenAlbedo(medium)) : made);
 }
 
 } // namespace celadon::app

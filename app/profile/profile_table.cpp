@@ -77,7 +77,7 @@ plot::Drawing drawTable(const TableOptions& options, const TableFile& table) {
             (names.empty() ? "" : ", ") + std::filesystem::path(material).stem().stem().string();
     }
     plot::LineChart profile{fmt::format("Mean profile of {}", names),
-                            {"r / R_P", false, 0.0, 1.0},
+                            {"r / Rₚ", false, 0.0, 1.0},
                             {"mean profile, integral of P r dr = 1", true},
                             {}};
     plot::Series mean{"", {}, plot::seriesColor(1)};
@@ -87,8 +87,8 @@ plot::Drawing drawTable(const TableOptions& options, const TableFile& table) {
     profile.series.push_back(mean);
     plot::LineChart radius{
         fmt::format("Minimal radius, ε = {:g}, energy {:g}", options.epsilon, options.energy),
-        {"T, pixels per R_P", true, table.T.front(), table.T.back()},
-        {"minimal effective rendering radius / R_P", false, 0.0, 1.0},
+        {"T, pixels per Rₚ", true, table.T.front(), table.T.back()},
+        {"minimal effective rendering radius / Rₚ", false, 0.0, 1.0},
         {}};
     plot::Series series{"", {}, plot::seriesColor(2)};
     for (std::size_t i = 0; i < table.T.size(); ++i) {

@@ -313,6 +313,7 @@ void packHalves(const MaterialMap& map, std::size_t begin, std::size_t end, std:
     const auto values = static_cast<std::size_t>(map.knots()) * 3;
     out.resize((end - begin) * channels);
     tbb::parallel_for(tbb::blocked_range<std::size_t>(begin, end, 256), [&](const auto& range) {
+        HalfRounding rounding(map.segments, map.maxRadiusMm / static_cast<float>(map.segments));
         std::vector<float> floored(values);
         for (std::size_t texel = range.begin(); texel < range.end(); ++texel) {
             std::uint16_t* pixel = out.data() + (texel - begin) * channels;
@@ -320,7 +321,7 @@ void packHalves(const MaterialMap& map, std::size_t begin, std::size_t end, std:
                 floored[i] = std::clamp(map.logProfile[texel * values + i], kLogProfileFloor,
                                         kMaxLogProfile);
             }
-            roundKeepingAlbedo(floored.data(), map.segments, pixel);
+            rounding.round(floored.data(), pixel);
             std::size_t next = values;
             if (!map.roughness.empty()) {
                 pixel[next++] = unitHalf(map.roughness[texel]);

@@ -146,7 +146,7 @@ TEST_F(ProfileCommand, PlotsAreDrawn) {
     expectDone({"plot", "jade", "--uv", "0.1,0.9", "--energy", "0.9", "-o", file("p.png")});
     EXPECT_EQ(readImage(folder / "p.png").image.height, 960);
     expectDone({"plot", "marble", "--channels", "r", "--no-energy", "-o", file("r.svg")});
-    EXPECT_THAT(test::readText(folder / "r.svg"), HasSubstr("R_P 10.6 mm"));
+    EXPECT_THAT(test::readText(folder / "r.svg"), HasSubstr("R\u209a 10.6 mm"));
     expectRefused({"plot"}, 2, HasSubstr("no profile"));
     expectRefused({"plot", "marble"}, 2, HasSubstr("-o is missing"));
     expectRefused({"plot", "marble", "-o", file("p.jpg")}, 2, HasSubstr(".png"));

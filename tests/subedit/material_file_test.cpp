@@ -12,6 +12,7 @@
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <random>
 
 namespace celadon::subedit {
 namespace {
@@ -120,6 +121,41 @@ TEST_F(MaterialFile, HalvesKeepTheAlbedo) {
         for (std::size_t i = 0; i < map.logProfile.size(); ++i) {
             // One step of half precision at most: 1/64 where |ln P| is in [16, 32).
             EXPECT_NEAR(read.logProfile[i], map.logProfile[i], 1.0f / 64.0f);
+        }
+    }
+}
+
+/// With few knots there is little to choose from, and near 1 there is a limit.
+TEST_F(MaterialFile, HalvesKeepTheAlbedoOfFewSegmentsAndStayBelowOne) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+    for (const int segments : {1, 2, 3, 4, 8, 24}) {
+        MaterialMap map = test::varyingMaterial(16, 16, segments);
+        for (float& value : map.logProfile) {
+            value += 0.2f * unit(random);
+        }
+        const std::vector<float> made = albedoMap(map);
+        std::vector<float> wanted;
+        const auto knots = static_cast<std::size_t>(map.knots());
+        for (std::size_t i = 0; i < made.size(); ++i) {
+            wanted.push_back(i % 2 == 0 ? 1.0f : 0.2f + 0.7f * unit(random));
+            const std::size_t texel = i / 3;
+            for (std::size_t k = 0; k < knots; ++k) {
+                map.logProfile[(texel * knots + k) * 3 + i % 3] += std::log(wanted[i] / made[i]);
+            }
+        }
+        for (float& value : map.logProfile) {
+            value = std::max(value, kLogProfileFloor);
+        }
+        writeMaterial(map, file);
+        const std::vector<float> before = albedoMap(map);
+        const std::vector<float> after = albedoMap(readMaterial(file));
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            // A step of half precision is 1/512 to 1/64 here, and few knots leave little choice.
+            EXPECT_NEAR(after[i] / before[i], 1.0f, segments < 8 ? 3e-3f : 1e-3f) << segments;
+            if (i % 2 == 0) {
+                EXPECT_LE(after[i], 1.0f + 3e-6f) << segments << ", " << before[i];
+            }
         }
     }
 }
