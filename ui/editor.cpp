@@ -49,7 +49,8 @@ private:
     void poll();
     void pollOpening();
     void worldOpened();
-    void recover(const Recovery& recovery);
+    void recoverSome();
+    void finishRecovery();
     void offerRecovery();
     void takeKey(KeyChord pressed);
     /// Turntable and motion go on with the clock, as fast as pictures come. @return whether they
@@ -61,6 +62,7 @@ private:
     void advanceScript();
     void setActions();
     void addWindowCommands();
+    void addExportCommands();
     void keepJournal();
     void takeScreenshot(const std::filesystem::path& file);
     /// Plays, or stops at the moment that is shown; where nothing changes over time, the turntable.
@@ -86,7 +88,9 @@ private:
     LayoutState mLayout;
     LayoutActions mActions;
     FileWatch mWatch;
-    std::optional<Recovery> mRecovery; ///< to be replayed once its model is open
+    std::optional<Recovery> mRecovery;              ///< to be replayed once its model is open
+    std::optional<Recovery> mRecovering;            ///< being replayed
+    std::size_t mRecovered = 0, mRecoveredWell = 0; ///< its steps so far
     bool mIsPlaced = false;
     std::uint64_t mSeenWorld = 0;
     std::chrono::steady_clock::time_point mPlayedUntil; ///< what turns or plays has come so far
@@ -123,6 +127,7 @@ Editor::Editor(const EditorOptions& options)
     keepJournal();
     setActions();
     addWindowCommands();
+    addExportCommands();
 }
 
 void Editor::keepJournal() {
@@ -140,7 +145,8 @@ void Editor::keepJournal() {
     };
 }
 
-/// What concerns the window only, so that replays can show every panel.
+/// What concerns the window only, so that replays can show every panel. Not recorded: how the
+/// window looks changes nothing of the work.
 void Editor::addWindowCommands() {
     Dispatcher& commands = mSession.dispatcher();
     const auto add = [&commands](const char* name, const char* summary,
@@ -165,20 +171,35 @@ void Editor::addWindowCommands() {
         [this](const Arguments& a) { mFiles.drop(a.text("file")); });
     add("window.cursor", "Where the tools take the cursor to be, of the viewport: 0,0 top left",
         [this](const Arguments& a) { mTools.pretend(a.vector2("place")); });
-    add("export.turntable", "Pictures of a whole turn: file, frames, size in pixels",
-        [this](const Arguments& a) {
-            TurntableSettings settings;
-            settings.file = a.text("file");
-            settings.frames = a.integerWithin("frames", 1, 10000);
-            if (a.has("size")) {
-                settings.sizePx = glm::ivec2(a.vector2("size"));
-                if (std::min(settings.sizePx.x, settings.sizePx.y) < 16 ||
-                    std::max(settings.sizePx.x, settings.sizePx.y) > 8192) {
-                    throw UsageError("export.turntable, size", "is not within 16 to 8192 pixels");
-                }
-            }
-            startTurntable(mSession, mJobs, settings);
-        });
+}
+
+/// What is written of the pictures that the window shows: recorded, as all that leaves something.
+void Editor::addExportCommands() {
+    Dispatcher& commands = mSession.dispatcher();
+    commands.add("export.picture", "The picture in the viewport, as it is: file",
+                 [this](const Arguments& a) {
+                     const std::string file = a.text("file");
+                     if (mViewport.shownRung() < 0) {
+                         throw UsageError("export.picture", "there is no picture yet");
+                     }
+                     writePicture(file, mViewport.texture());
+                     mSession.notify(Notice::Kind::Info, fmt::format("Saved '{}'", file));
+                 });
+    commands.add("export.turntable", "Pictures of a whole turn: file, frames, size in pixels",
+                 [this](const Arguments& a) {
+                     TurntableSettings settings;
+                     settings.file = a.text("file");
+                     settings.frames = a.integerWithin("frames", 1, 10000);
+                     if (a.has("size")) {
+                         settings.sizePx = glm::ivec2(a.vector2("size"));
+                         if (std::min(settings.sizePx.x, settings.sizePx.y) < 16 ||
+                             std::max(settings.sizePx.x, settings.sizePx.y) > 8192) {
+                             throw UsageError("export.turntable, size",
+                                              "is not within 16 to 8192 pixels");
+                         }
+                     }
+                     startTurntable(mSession, mJobs, settings);
+                 });
 }
 
 void Editor::setActions() {
@@ -196,12 +217,7 @@ void Editor::setActions() {
     mActions.exportGltf = [this] { mFiles.exportGltf(); };
     mActions.savePicture = [this] {
         mFiles.chooseOutput("Save the picture", ".png", "celadon.png", [this](const auto& file) {
-            try {
-                writePicture(file, mViewport.texture());
-                mSession.notify(Notice::Kind::Info, fmt::format("Saved '{}'", file.string()));
-            } catch (const Error& error) {
-                mSession.notify(Notice::Kind::Error, error.what());
-            }
+            mSession.perform({"export.picture", {{"file", file.string()}}});
         });
     };
     mActions.saveTurntable = [this](int frames) {
@@ -211,7 +227,14 @@ void Editor::setActions() {
                                                   {{"file", file.string()}, {"frames", frames}}});
                             });
     };
-    mActions.cancelJobs = [this] { mJobs.cancelShown(); };
+    mActions.cancelJobs = [this] {
+        if (mOpen.isRunning()) {
+            mOpen.cancel();
+            mSession.notify(Notice::Kind::Info, "Opening was given up");
+        }
+        mJobs.cancelShown();
+        mTruth.giveUp();
+    };
     mActions.toggleFullScreen = [this] { mWindow.toggleFullScreen(); };
     mActions.togglePlay = [this] { togglePlay(); };
     mActions.toggleTurntable = [this] { mLayout.isTurning = !mLayout.isTurning; };
@@ -348,6 +371,9 @@ void Editor::poll() {
         mFramesToDraw = kSettlingFrames;
     }
     pollOpening();
+    if (mRecovering) {
+        recoverSome();
+    }
     if (mJobs.poll()) {
         mFramesToDraw = kSettlingFrames;
     }
@@ -395,21 +421,38 @@ void Editor::worldOpened() {
     mFiles.remember(mSession.opened());
     mJournal.begin(mSession.opened());
     if (mRecovery && mRecovery->opened.model == mSession.opened().model) {
-        recover(*std::exchange(mRecovery, std::nullopt));
+        mRecovering = std::exchange(mRecovery, std::nullopt);
+        mRecovered = mRecoveredWell = 0;
     }
 }
 
-void Editor::recover(const Recovery& recovery) {
-    std::size_t done = 0;
-    for (const Command& command : recovery.commands) {
-        done += mSession.perform(command) ? 1 : 0;
+/// A few steps of a recovery, so that the window goes on.
+void Editor::recoverSome() {
+    using Clock = std::chrono::steady_clock;
+    constexpr auto kAtOnce = std::chrono::milliseconds(80);
+    const auto begin = Clock::now();
+    const std::vector<Command>& commands = mRecovering->commands;
+    while (mRecovered < commands.size() && Clock::now() - begin < kAtOnce) {
+        mRecoveredWell += mSession.perform(commands[mRecovered++]) ? 1 : 0;
     }
+    mFramesToDraw = kSettlingFrames;
+    mLayout.activity = fmt::format("Recovering, step {} of {}; {} stops there", mRecovered,
+                                   commands.size(), mPreferences.keys.text(Action::Cancel));
+    if (mRecovered == commands.size()) {
+        finishRecovery();
+    }
+}
+
+void Editor::finishRecovery() {
     mSession.notify(Notice::Kind::Info,
-                    fmt::format("Recovered {} of {} steps; they are not saved yet", done,
-                                recovery.commands.size()));
-    mSession.forgetMaterialFiles();
+                    fmt::format("Recovered {} of {} steps; they are not saved yet", mRecoveredWell,
+                                mRecovering->commands.size()));
+    mSession.forgetMaterialFiles(); // nothing takes a file's name unless asked to
     std::error_code ignored;
-    std::filesystem::remove(recovery.file, ignored);
+    std::filesystem::remove(mRecovering->file, ignored);
+    mRecovering.reset();
+    mLayout.activity.clear();
+    mFramesToDraw = kSettlingFrames;
 }
 
 bool Editor::play() {
@@ -452,6 +495,8 @@ void Editor::drawContents() {
     mViewport.draw(background);
     mTruth.draw(mSession, background, rect);
     mTools.drawOverlay(background, rect, mWindow.scale());
+    mLayout.isOpening = mOpen.isRunning();
+    mLayout.isRecovering = mRecovering.has_value();
     drawLayout({mSession, mLayout, mPreferences, mActions, mViewport, mThumbnails, mTruth, mTools,
                 mWindow.scale()});
     mFiles.draw(mWindow.scale());
@@ -502,6 +547,7 @@ void Editor::takeKey(KeyChord pressed) {
 
 void Editor::handleInput() {
     const ImGuiIO& io = ImGui::GetIO();
+    mTools.setLightsFirst(mLayout.panelsShown && mLayout.tab == Tab::Light);
     for (const InputEvent& event : mWindow.takeInput()) {
         if (event.kind == InputEvent::Kind::Key) {
             const KeyChord pressed{event.button, event.modifiers};
@@ -510,12 +556,22 @@ void Editor::handleInput() {
                 continue;
             }
             const std::optional<Action> action = mPreferences.keys.find(pressed);
-            if (action && !io.WantTextInput && !mFiles.isAsking()) {
-                performAction(*action, {mSession, mTools, mViewport.rect(), mLayout, mActions});
+            if (mRecovering) {
+                if (action == Action::Cancel) {
+                    finishRecovery();
+                }
+                continue;
+            }
+            if (action && (!event.isRepeated || repeats(*action)) && !io.WantTextInput &&
+                !mFiles.isAsking()) {
+                performAction(*action, {mSession, mTools, mViewport.rect(), mLayout, mActions,
+                                        mPreferences.keys});
             }
             continue;
         }
-        mTools.handle(event, mViewport.rect(), io.WantCaptureMouse && !mTools.isDragging());
+        if (!mRecovering) {
+            mTools.handle(event, mViewport.rect(), io.WantCaptureMouse && !mTools.isDragging());
+        }
     }
     mTools.hover({static_cast<double>(io.MousePos.x), static_cast<double>(io.MousePos.y)},
                  io.WantCaptureMouse);

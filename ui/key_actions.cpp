@@ -91,6 +91,10 @@ void performAction(Action action, const KeyTargets& t) {
         break;
     case Action::Panels:
         t.layout.panelsShown = !t.layout.panelsShown;
+        if (!t.layout.panelsShown) {
+            t.session.notify(Notice::Kind::Info,
+                             t.keys.text(Action::Panels) + " brings the panels back");
+        }
         break;
     case Action::FullScreen:
         t.actions.toggleFullScreen();
@@ -134,6 +138,7 @@ void performAction(Action action, const KeyTargets& t) {
         break;
     case Action::Cancel:
         t.layout.helpShown = false;
+        t.layout.preferencesShown = false;
         t.tools.cancel();
         break;
     case Action::Save:

@@ -12,6 +12,7 @@ struct KeyTargets {
     const ViewportRect& viewport;
     LayoutState& layout;
     const LayoutActions& actions;
+    const KeyMap& keys;
 };
 
 void performAction(Action action, const KeyTargets& targets);

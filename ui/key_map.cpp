@@ -164,6 +164,13 @@ std::optional<KeyChord> parseChord(std::string_view text) {
     return std::nullopt;
 }
 
+bool repeats(Action action) {
+    using enum Action;
+    constexpr std::array kRepeating{Smaller,   Larger, Undo,     Redo,     TurnLeft,
+                                    TurnRight, TurnUp, TurnDown, StepBack, StepOn};
+    return std::ranges::find(kRepeating, action) != kRepeating.end();
+}
+
 std::span<const ActionInfo> actionInfos() {
     return kActions;
 }

@@ -54,6 +54,9 @@ enum class Action {
     Count
 };
 
+/// Goes on while its key is held.
+[[nodiscard]] bool repeats(Action action);
+
 /// A key with exactly these of control, shift and alt; key 0: none.
 struct KeyChord {
     int key = 0;       ///< GLFW's

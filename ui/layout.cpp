@@ -77,7 +77,7 @@ void drawPanel(const LayoutContext& context) {
         drawViewPanel(context);
         break;
     case Tab::Light:
-        drawLightPanel(context.session);
+        drawLightPanel(context.session, context.actions);
         break;
     case Tab::Deform:
         drawDeformPanel(context);
@@ -147,12 +147,14 @@ void drawLayout(const LayoutContext& context) {
     MotionState& motion = context.session.motion;
     motion.areControlsShown = context.state.tab == Tab::Deform;
     motion.isAddingHandles &= motion.areControlsShown;
+    ImGui::BeginDisabled(context.state.isRecovering);
     if (context.state.panelsShown) {
         drawViewportHint(context);
         drawMenuBar(context);
         drawSideBar(context);
         drawStatusBar(context);
     }
+    ImGui::EndDisabled();
     context.viewport.wantCounts(context.state.panelsShown && context.state.tab == Tab::View);
     drawNotices(context);
     drawHelpWindow(context.preferences.keys, context.state.helpShown, context.scale);

@@ -86,6 +86,11 @@ void Session::tell(const subedit::EditReport& report) {
                                                "needed more range",
                                                *report.grownRadiusMm));
     }
+    if (report.texels == 0 && activeDocument() != nullptr &&
+        activeDocument()->selection().isZero()) {
+        notify(Notice::Kind::Warning, "Nothing is selected, so nothing changes: Select all, in the "
+                                      "Edit menu, ends that");
+    }
     if (report.texels > 0 && 4 * report.rangeClamped > report.texels) {
         notify(Notice::Kind::Warning, "The range is at its limit: most of the edit was clamped");
     }

@@ -3,6 +3,7 @@
 #include "subedit/errors.h"
 #include "subedit/map/material_file.h"
 #include "subedit/map/shipped_materials.h"
+#include "ui/model_profile.h"
 #include "ui/session.h"
 
 #include <fmt/format.h>
@@ -100,6 +101,16 @@ void addProfileCommands(Session& session) {
                          a.text("name", "Custom"),
                          diffusionProfile(glm::clamp(glm::vec3(a.vector3("albedo")), 0.0f, 0.999f),
                                           glm::clamp(glm::vec3(a.vector3("radius")), 1e-3f, 1e3f))};
+                 });
+    commands.add("profile.model", "A published model's profile: model, albedo, radii R_P in mm",
+                 [&session](const Arguments& a) {
+                     const subedit::Document* const document = session.activeDocument();
+                     const double eta =
+                         document != nullptr ? static_cast<double>(document->material().eta) : 1.3;
+                     profileOf(session, a) = {
+                         a.text("name", "Custom"),
+                         modelProfile(a.text("model"), glm::clamp(a.vector3("albedo"), 0.0, 0.999),
+                                      glm::clamp(a.vector3("radius"), 1e-3, 1e3), eta)};
                  });
     commands.add("profile.change", "Changes albedo or radii R_P (mm) per channel",
                  [&session](const Arguments& a) {

@@ -16,6 +16,11 @@ Recorder::Recorder(const std::filesystem::path& file)
 
 void Recorder::write(const Command& command) {
     mStream << formatCommand(command) << '\n' << std::flush;
+    if (!mStream && !mHasFailed) {
+        mHasFailed = true;
+        throw OutputError(fmt::format("'{}'", mFile.string()), "cannot be written",
+                          "the record ends here: make room and begin another");
+    }
 }
 
 std::vector<Command> readCommands(const std::filesystem::path& file, Tail tail) {

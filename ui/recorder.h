@@ -15,11 +15,13 @@ class Recorder {
 public:
     /// @throws OutputError
     explicit Recorder(const std::filesystem::path& file);
+    /// @throws OutputError the first time that it fails; what follows is not written
     void write(const Command& command);
 
 private:
     std::filesystem::path mFile;
     std::ofstream mStream;
+    bool mHasFailed = false;
 };
 
 enum class Tail { IsWhole, MayBeCut };

@@ -1,6 +1,7 @@
 #include "ui/script.h"
 
 #include "renderer/output/atomic_file.h"
+#include "subedit/errors.h"
 
 #include <fstream>
 #include <string>
@@ -33,7 +34,13 @@ Script::Script(const EditorOptions& options, Session& session)
     : mOptions(options), mSession(session), mLastScreenshot(options.screenshot) {
     if (options.record) {
         mRecorder.emplace(*options.record);
-        session.dispatcher().observe([this](const Command& command) { mRecorder->write(command); });
+        session.dispatcher().observe([this](const Command& command) {
+            try {
+                mRecorder->write(command);
+            } catch (const OutputError& error) { // the work goes on
+                mSession.notify(Notice::Kind::Error, error.what());
+            }
+        });
     }
     if (options.replay || !options.screenshotsAt.empty()) {
         mReplayer.emplace(options.replay ? readCommands(*options.replay) : std::vector<Command>(),

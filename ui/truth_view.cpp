@@ -27,6 +27,7 @@ void TruthView::update(const Session& session, glm::ivec2 viewportPx, bool isAtR
     }
     if (isWanted && isAtRest && mAskedRevision != revision) {
         mAskedRevision = revision;
+        mIsGivenUp = false;
         start(session, viewportPx);
     }
 }
@@ -42,6 +43,11 @@ void TruthView::start(const Session& session, glm::ivec2 viewportPx) {
             const std::vector<Light> lights = snapshot.rig.resolved();
             FrameSettings settings = frameSettings(Quality::Default);
             const auto scene = std::make_shared<const GpuScene>(world, settings);
+            double done = 0.0; // parts of the pixels of all passes
+            double all = 0.0;
+            for (const int divisor : kDivisors) {
+                all += 1.0 / (divisor * divisor);
+            }
             for (const int divisor : kDivisors) {
                 settings.size = glm::max(viewportPx / divisor, glm::ivec2(16));
                 std::optional<FrameDifference> found =
@@ -51,7 +57,8 @@ void TruthView::start(const Session& session, glm::ivec2 viewportPx) {
                     return;
                 }
                 const bool isLast = divisor == kDivisors.back();
-                progress.report(1.0 / (divisor * divisor));
+                done += 1.0 / (divisor * divisor);
+                progress.report(done / all);
                 progress.deliver([this, revision, isLast, result = std::move(*found)]() mutable {
                     if (revision != mAskedRevision) {
                         return;
@@ -65,6 +72,11 @@ void TruthView::start(const Session& session, glm::ivec2 viewportPx) {
                 });
             }
         });
+}
+
+void TruthView::giveUp() {
+    mJobs.cancel(kGroup);
+    mIsGivenUp = true;
 }
 
 const FrameDifference* TruthView::difference(const Session& session) const {

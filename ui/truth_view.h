@@ -28,6 +28,9 @@ public:
     [[nodiscard]] bool isComplete(const Session& session) const {
         return difference(session) != nullptr && mIsComplete;
     }
+    /// Of the session as it is: what is there stays, no more comes until something changes.
+    void giveUp();
+    [[nodiscard]] bool isGivenUp() const { return mIsGivenUp; }
     /// The heat map over the viewport, if there is one.
     void draw(const Session& session, ImDrawList& list, const ViewportRect& rect) const;
 
@@ -38,6 +41,7 @@ private:
     std::uint64_t mAskedRevision = 0; ///< of the work under way or done; 0: none
     std::uint64_t mShownRevision = 0;
     bool mIsComplete = false;
+    bool mIsGivenUp = false;
     FrameDifference mDifference;
     gl::Texture mTexture;
 };

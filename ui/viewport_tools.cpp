@@ -118,7 +118,8 @@ void ViewportTools::press(const InputEvent& event, const ViewportRect& rect) {
             return;
         }
         mLight = lightAt(event.positionPx, rect);
-        if (mLight >= 0) {
+        // A light before the object is in the way of the brush, unless lights are what is at hand.
+        if (mLight >= 0 && (mLightsFirst || !mPicker.pickAtRest(event.positionPx, rect))) {
             mDrag = Drag::Light;
             mSession.perform({"light.select", {{"light", mLight}}});
             return;
@@ -238,6 +239,12 @@ void ViewportTools::pressTool(const InputEvent& event, const ViewportRect& rect)
         mDrag = Drag::Orbit;
         return;
     }
+    const ViewMode mode = mSession.view.mode.mode;
+    if (mode == ViewMode::Atlas || mode == ViewMode::Irradiance) {
+        mSession.notify(Notice::Kind::Info, "This view shows a map, not the surface: choose "
+                                            "another in the View tab to paint");
+        return;
+    }
     const std::optional<SurfacePoint> hit = mPicker.pickAtRest(event.positionPx, rect);
     if (!hit) {
         mDrag = Drag::Orbit; // beside the object the hand turns it
@@ -342,7 +349,7 @@ bool ViewportTools::paintPoint(glm::dvec2 positionPx, const ViewportRect& rect) 
 
 void ViewportTools::paintTo(glm::dvec2 positionPx, const ViewportRect& rect) {
     // A fast hand: points between, so that the path follows the surface.
-    constexpr int kMostPoints = 128;
+    constexpr int kMostPoints = 2048; // more than a window is wide, at a pixel each
     const glm::dvec2 from = mPaintedPx;
     double stepPx = 8.0;
     if (mLastPoint) {
@@ -359,7 +366,9 @@ void ViewportTools::paintTo(glm::dvec2 positionPx, const ViewportRect& rect) {
 
 void ViewportTools::cancel() {
     if (mAdjust) {
-        mSession.paint.brush = mAdjust->brush;
+        mSession.perform({"brush.change",
+                          {{"radius", static_cast<double>(mAdjust->brush.radiusMm)},
+                           {"flow", static_cast<double>(mAdjust->brush.flow)}}});
         mAdjust.reset();
     }
     if (mDrag == Drag::Paint || mDrag == Drag::Scribble) {

@@ -50,6 +50,8 @@ public:
     void pretend(glm::dvec2 place) { mPretended = place; }
     /// What the mouse does now, in a few words; empty where it does nothing but turn the view.
     [[nodiscard]] std::string hint() const;
+    /// Whether lights that lie before the object can be dragged; else the brush goes first there.
+    void setLightsFirst(bool on) { mLightsFirst = on; }
 
 private:
     enum class Drag { None, Orbit, Pan, Zoom, Light, Control, Paint, Scribble, Line };
@@ -75,6 +77,7 @@ private:
     Drag mDrag = Drag::None;
     int mButton = -1;
     int mLight = -1;
+    bool mLightsFirst = false;
     double mScale = 1.0; ///< of the interface: gizmos are caught as far off as they are seen
     int mControl = -1;   ///< of the chosen deformer, that is dragged
     bool mHasMovedControl = false; ///< by this drag

@@ -12,6 +12,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 namespace celadon::ui {
@@ -40,6 +41,34 @@ GLFWwindow* createGlfwWindow(const std::string& title, glm::ivec2 size, bool vis
                            "'celadon render' needs no display");
     }
     return window;
+}
+
+/// Keys that are known by what they type, wherever a keyboard has it.
+struct TypedKey {
+    unsigned character;
+    KeyChord chord;
+};
+constexpr TypedKey kTypedKeys[] = {{'?', {GLFW_KEY_SLASH, GLFW_MOD_SHIFT}},
+                                   {'[', {GLFW_KEY_LEFT_BRACKET, 0}},
+                                   {']', {GLFW_KEY_RIGHT_BRACKET, 0}}};
+
+bool isTyped(KeyChord chord) {
+    return std::ranges::any_of(kTypedKeys,
+                               [&](const TypedKey& typed) { return typed.chord == chord; });
+}
+
+/// GLFW numbers keys by what stands on them on a US keyboard: the letter that stands on this one.
+int labelledKey(int key, int scancode) {
+    const bool isPrintable = key > GLFW_KEY_SPACE && key <= GLFW_KEY_GRAVE_ACCENT;
+    const char* const name = isPrintable ? glfwGetKeyName(key, scancode) : nullptr;
+    if (name == nullptr || name[0] == '\0' || name[1] != '\0') {
+        return key;
+    }
+    if (name[0] >= 'a' && name[0] <= 'z') {
+        return name[0] - 'a' + GLFW_KEY_A;
+    }
+    constexpr std::string_view kOthers = "',-./0123456789;=[\\]`";
+    return kOthers.find(name[0]) != std::string_view::npos ? name[0] : key;
 }
 
 } // namespace
@@ -114,12 +143,9 @@ void Window::installCallbacks() {
                            Window& self = *windowOf(handle);
                            self.mHadEvents = true;
                            self.mKeys.push_back({key, scancode, action, modifiers});
-                           if (action != GLFW_RELEASE) {
-                               InputEvent event{InputEvent::Kind::Key};
-                               glfwGetCursorPos(handle, &event.positionPx.x, &event.positionPx.y);
-                               event.button = key;
-                               event.modifiers = modifiers;
-                               self.mInput.push_back(event);
+                           const KeyChord chord{labelledKey(key, scancode), modifiers};
+                           if (action != GLFW_RELEASE && !isTyped(chord)) {
+                               self.pushKey(chord, action == GLFW_REPEAT);
                            }
                        });
     glfwSetDropCallback(mWindow, [](GLFWwindow* handle, int count, const char** paths) {
@@ -132,6 +158,11 @@ void Window::installCallbacks() {
     glfwSetWindowCloseCallback(mWindow, redraw);
     glfwSetCharCallback(mWindow, [](GLFWwindow* handle, unsigned character) {
         windowOf(handle)->mHadEvents = true;
+        for (const TypedKey& typed : kTypedKeys) {
+            if (typed.character == character) {
+                windowOf(handle)->pushKey(typed.chord, false);
+            }
+        }
         ImGui_ImplGlfw_CharCallback(handle, character);
     });
     glfwSetWindowFocusCallback(mWindow, [](GLFWwindow* handle, int focused) {
@@ -144,6 +175,15 @@ void Window::installCallbacks() {
     });
     glfwSetFramebufferSizeCallback(
         mWindow, [](GLFWwindow* handle, int, int) { windowOf(handle)->mHadEvents = true; });
+}
+
+void Window::pushKey(KeyChord chord, bool isRepeated) {
+    InputEvent event{InputEvent::Kind::Key};
+    glfwGetCursorPos(mWindow, &event.positionPx.x, &event.positionPx.y);
+    event.button = chord.key;
+    event.modifiers = chord.modifiers;
+    event.isRepeated = isRepeated;
+    mInput.push_back(event);
 }
 
 glm::ivec2 Window::sizePx() const {

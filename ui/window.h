@@ -24,6 +24,7 @@ struct InputEvent {
     glm::dvec2 positionPx{0.0}; ///< of the cursor, window pixels from the top left
     int button = 0;             ///< GLFW's mouse button or key
     int modifiers = 0;          ///< GLFW's
+    bool isRepeated = false;    ///< a key that is held down
     double wheel = 0.0;
 };
 
@@ -78,6 +79,7 @@ private:
         int modifiers = 0;
     };
     void installCallbacks();
+    void pushKey(KeyChord chord, bool isRepeated);
     void passKeys();
 
     GLFWwindow* mWindow = nullptr;

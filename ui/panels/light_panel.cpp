@@ -126,11 +126,16 @@ void drawSelected(Session& session) {
     }
 }
 
-void drawEnvironment(Session& session) {
+void drawEnvironment(Session& session, const LayoutActions& actions) {
     heading("Environment");
+    if (ImGui::Button(session.rig.environment ? "Another\xe2\x80\xa6" : "Open\xe2\x80\xa6",
+                      {-1.0f, 0.0f})) {
+        actions.openEnvironment();
+    }
+    tooltip(
+        "A picture of light from all around, latitude-longitude: .hdr or .exr. It can be dropped "
+        "on the window as well");
     if (!session.rig.environment) {
-        hint("Drop a latitude-longitude .hdr or .exr on the window, or open one from the File "
-             "menu.");
         return;
     }
     const RigEnvironment& environment = *session.rig.environment;
@@ -156,7 +161,7 @@ void drawEnvironment(Session& session) {
 
 } // namespace
 
-void drawLightPanel(Session& session) {
+void drawLightPanel(Session& session, const LayoutActions& actions) {
     heading("Presets");
     drawPresets(session);
     heading("Lights");
@@ -170,7 +175,7 @@ void drawLightPanel(Session& session) {
         session.perform({"light.add", {{"kind", lightKindName(static_cast<Light::Kind>(added))}}});
     }
     drawSelected(session);
-    drawEnvironment(session);
+    drawEnvironment(session, actions);
 }
 
 } // namespace celadon::ui

@@ -16,6 +16,24 @@ namespace celadon::ui {
 
 namespace {
 
+/// As much of a label as there is room for.
+std::string shortened(const std::string& label, float room) {
+    if (ImGui::CalcTextSize(label.c_str()).x <= room) {
+        return label;
+    }
+    constexpr const char* kMore = "\xe2\x80\xa6";
+    std::string text = label;
+    while (!text.empty() && ImGui::CalcTextSize((text + kMore).c_str()).x > room) {
+        do {
+            text.pop_back();
+        } while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xc0) == 0x80);
+    }
+    while (!text.empty() && text.back() == ' ') {
+        text.pop_back();
+    }
+    return text + kMore;
+}
+
 void drawCurrent(Session& session) {
     const subedit::Document* const document = session.activeDocument();
     if (document == nullptr) {
@@ -93,7 +111,9 @@ void drawCard(const LayoutContext& context, const LibraryMaterial& material, flo
     if (isHovered && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
         context.actions.putOn(material.nameOrPath);
     }
-    tooltip(material.file.c_str());
+    tooltip(fmt::format("{}\nClick: into the hand. Double click: on the whole model\n{}",
+                        material.label, material.file.string())
+                .c_str());
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 end(at.x + side, at.y + side);
     const float rounding = ImGui::GetStyle().FrameRounding;
@@ -109,10 +129,8 @@ void drawCard(const LayoutContext& context, const LibraryMaterial& material, flo
     }
     ImGui::PushFont(font(Font::Small));
     const ImVec2 text = ImGui::GetCursorScreenPos();
-    list.PushClipRect(text, {text.x + side, text.y + ImGui::GetTextLineHeight() + 2.0f}, true);
     list.AddText({text.x + 1.0f, text.y - 2.0f}, ImGui::GetColorU32(palette().text),
-                 material.label.c_str());
-    list.PopClipRect();
+                 shortened(material.label, side).c_str());
     ImGui::Dummy({side, ImGui::GetTextLineHeight()});
     ImGui::PopFont();
     ImGui::EndGroup();

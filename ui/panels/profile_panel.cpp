@@ -2,8 +2,10 @@
 
 #include "renderer/output/tone_map.h"
 #include "subedit/effective_radius.h"
+#include "subedit/exchange/subsurface_parameters.h"
 #include "subedit/map/shipped_materials.h"
 #include "subedit/presets.h"
+#include "ui/model_profile.h"
 #include "ui/slab_preview.h"
 #include "ui/theme.h"
 #include "ui/widgets/fields.h"
@@ -60,6 +62,18 @@ void drawNumbers(Session& session) {
         }
         ImGui::PopID();
     }
+    glm::dvec3 length;
+    for (int c = 0; c < 3; ++c) {
+        length[c] =
+            albedo[c] > 1e-4 && radius[c] > 0.0
+                ? subedit::meanFreePathFromEffectiveRadius(std::min(albedo[c], 0.999), radius[c])
+                : 0.0;
+    }
+    readout("Mean free path",
+            fmt::format("{:.2g}, {:.2g}, {:.2g} mm", length.x, length.y, length.z),
+            "\xe2\x84\x93 = 1/\xcf\x83t\xe2\x80\xb2 in mm, red, green, blue: of the normalized "
+            "diffusion "
+            "profile with this albedo and R_P (Christensen, Burley 2015)");
     readout("Ends at r_s", fmt::format("{:.3g} mm", session.paint.primary.profile.maxRadiusMm),
             "Maximum scattering radius: where the stored profile ends");
 }
@@ -109,15 +123,23 @@ void drawStarts(Session& session) {
     }
     tooltip("Homogeneous ones are measured media (Jensen et al. 2001); of the others the middle is "
             "taken");
-    if (ImGui::Button("Normalized diffusion", {-1.0f, 0.0f})) {
-        const subedit::ProfileView view = session.paint.primary.profile.view();
-        session.perform({"profile.diffusion",
-                         {{"which", "primary"},
-                          {"name", session.paint.primary.name},
-                          {"albedo", toJson(subedit::diffuseAlbedo(view))},
-                          {"radius", toJson(subedit::effectiveRadiusMm(view, 0.95))}}});
+    ImGui::SetNextItemWidth(-1.0f);
+    if (ImGui::BeginCombo("##model", "The same light by a model\xe2\x80\xa6")) {
+        for (const ModelName& model : profileModels()) {
+            if (ImGui::Selectable(model.label)) {
+                const subedit::ProfileView view = session.paint.primary.profile.view();
+                session.perform({"profile.model",
+                                 {{"which", "primary"},
+                                  {"model", model.word},
+                                  {"name", session.paint.primary.name},
+                                  {"albedo", toJson(subedit::diffuseAlbedo(view))},
+                                  {"radius", toJson(subedit::effectiveRadiusMm(view, 0.95))}}});
+            }
+            tooltip(model.help);
+        }
+        ImGui::EndCombo();
     }
-    tooltip("The same albedo and radii with the shape of Christensen and Burley 2015");
+    tooltip("Albedo and R_P as they are, the shape by a published model");
 }
 
 } // namespace

@@ -14,6 +14,14 @@ namespace celadon::ui {
 
 namespace {
 
+void drawCancel(const LayoutContext& context, float height) {
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {6.0f * context.scale, 0.0f});
+    if (ImGui::Button("Cancel", {0.0f, height})) {
+        context.actions.cancelJobs();
+    }
+    ImGui::PopStyleVar();
+}
+
 std::string qualityText(const Viewport& viewport) {
     const int shown = viewport.shownRung();
     if (shown < 0) {
@@ -32,11 +40,7 @@ void drawJob(const LayoutContext& context, const BackgroundJobs::Running& job) {
     ImGui::ProgressBar(static_cast<float>(job.fraction), {140.0f * context.scale, height},
                        fmt::format("{:.0f} %", 100.0 * job.fraction).c_str());
     ImGui::SameLine();
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {6.0f * context.scale, 0.0f});
-    if (ImGui::Button("Cancel", {0.0f, height})) {
-        context.actions.cancelJobs();
-    }
-    ImGui::PopStyleVar();
+    drawCancel(context, height);
 }
 
 } // namespace
@@ -58,6 +62,10 @@ void drawStatusBar(const LayoutContext& context) {
         ImGui::PushFont(font(Font::Small));
         if (!context.state.activity.empty()) {
             ImGui::TextColored(palette().warning, "%s", context.state.activity.c_str());
+            if (context.state.isOpening) {
+                ImGui::SameLine();
+                drawCancel(context, ImGui::GetFontSize() + 2.0f * scale);
+            }
         } else if (context.state.job) {
             drawJob(context, *context.state.job);
         } else if (session.hasWorld()) {
@@ -66,6 +74,7 @@ void drawStatusBar(const LayoutContext& context) {
                             2.0 * session.world().scatteringSphere.radius,
                             session.isModified() ? "   \xc2\xb7   not saved" : "");
             ImGui::TextDisabled("%s", text.c_str());
+            tooltip("The model, and the diameter of what scatters, mm");
         }
         const Viewport& viewport = context.viewport;
         const std::string right = viewport.shownRung() < 0
@@ -76,6 +85,7 @@ void drawStatusBar(const LayoutContext& context) {
         ImGui::SameLine(
             std::max(0.0f, size.x - ImGui::CalcTextSize(right.c_str()).x - 12.0f * scale));
         ImGui::TextDisabled("%s", right.c_str());
+        tooltip("Quality and size of the picture on screen, and the time it took, ms");
         ImGui::PopFont();
     }
     ImGui::End();

@@ -137,7 +137,8 @@ void drawSampleCounts(const Viewport& viewport) {
 void drawDifference(const LayoutContext& context) {
     const FrameDifference* const found = context.truth.difference(context.session);
     if (found == nullptr) {
-        hint("Working it out\xe2\x80\xa6");
+        hint(context.truth.isGivenUp() ? "Given up; any change of the view begins it again."
+                                       : "Working it out\xe2\x80\xa6");
         return;
     }
     readout("Relative error", fmt::format("{:.2f} %", 100.0 * found->relativeRmse),
@@ -150,7 +151,9 @@ void drawDifference(const LayoutContext& context) {
             "At the size of the comparison, first frame");
     hint(fmt::format("Black: equal. Yellow: {:.0f} % of the mean exitance or more.{}",
                      100.0 * found->scale,
-                     context.truth.isComplete(context.session) ? "" : " Refining\xe2\x80\xa6")
+                     context.truth.isComplete(context.session) ? ""
+                     : context.truth.isGivenUp()               ? " Given up before it was fine."
+                                                               : " Refining\xe2\x80\xa6")
              .c_str());
 }
 
@@ -180,6 +183,25 @@ void drawModes(const LayoutContext& context) {
     }
     if (mode.mode == ViewMode::Difference) {
         drawDifference(context);
+    }
+}
+
+/// Which part of the samples each level has, in the colors of the view of samples.
+void drawLevelBar(const std::vector<std::uint64_t>& selected, std::size_t all,
+                  const std::string& help) {
+    const ImVec2 low = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x;
+    const float height = 0.6f * ImGui::GetFontSize();
+    ImGui::InvisibleButton("##levels", {width, height});
+    tooltip(help.c_str());
+    float x = low.x;
+    for (std::size_t level = 0; level < selected.size() && all > 0; ++level) {
+        const float part = width * static_cast<float>(selected[level]) / static_cast<float>(all);
+        const glm::vec3 c = levelColor(static_cast<int>(level));
+        ImGui::GetWindowDrawList()->AddRectFilled(
+            {x, low.y}, {x + part, low.y + height},
+            ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1.0f}));
+        x += part;
     }
 }
 
@@ -216,6 +238,7 @@ void drawTimings(const Viewport& viewport) {
                                     picture.counts->selected[level]);
         }
         readout("Samples", fmt::format("{}", samples), perLevel.c_str());
+        drawLevelBar(picture.counts->selected, samples, perLevel);
         readout("Pairs", fmt::format("{:.2f} M", 1e-6 * static_cast<double>(picture.counts->pairs)),
                 "Pairs of a sample and a pixel that were evaluated, in millions");
     }
