@@ -162,8 +162,13 @@ void Editor::addWindowCommands() {
     });
     add("window.scroll", "Scrolls the side bar, 0 top to 1 bottom",
         [this](const Arguments& a) { mLayout.scrollTo = a.numberWithin("to", 0.0, 1.0); });
-    add("window.dialog", "Opens a dialog: open, save", [this](const Arguments& a) {
-        a.text("name") == "save" ? mFiles.saveAs() : mFiles.openModel();
+    add("window.dialog", "Opens a dialog: open, save, unsaved", [this](const Arguments& a) {
+        const std::string name = a.text("name");
+        if (name == "unsaved") {
+            mFiles.askAboutMaterial([] {});
+        } else {
+            name == "save" ? mFiles.saveAs() : mFiles.openModel();
+        }
     });
     add("window.menu", "Opens a menu: file, edit, view, help; none closes them",
         [this](const Arguments& a) { mLayout.openMenu = a.text("name"); });
@@ -246,9 +251,8 @@ void Editor::setActions() {
     apply();
     mActions.preferencesChanged = [this, apply] {
         apply();
-        if (mPreferences.uiScale > 0.0) {
-            mWindow.setScale(static_cast<float>(mPreferences.uiScale));
-        }
+        mWindow.setScale(
+            static_cast<float>(mPreferences.uiScale > 0.0 ? mPreferences.uiScale : mOptions.scale));
         mFiles.savePreferences();
     };
 }

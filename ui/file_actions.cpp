@@ -94,8 +94,11 @@ void FileActions::saveDeformers(const std::function<void()>& then) {
            });
 }
 
-bool FileActions::saveTo(int material, const std::filesystem::path& file) {
+bool FileActions::saveTo(int material, const std::filesystem::path& file, const std::string& name) {
     Command save{"file.save", {{"file", file.string()}}};
+    if (!name.empty()) {
+        save.arguments["name"] = name;
+    }
     if (mSession.materialCount() > 1) {
         save.arguments["material"] = material;
     }
@@ -162,11 +165,12 @@ void FileActions::saveAsNew(const std::string& name) {
     std::filesystem::create_directories(folder, failed);
     const std::filesystem::path file = folder / (name + kMaterialSuffix);
     if (!std::filesystem::exists(file, failed)) {
-        saveTo(mSession.activeMaterial, file);
+        saveTo(mSession.activeMaterial, file, name);
         return;
     }
     ask("Replace?", fmt::format("There is a material '{}' already.", name),
-        {{"Replace", [this, file] { saveTo(mSession.activeMaterial, file); }}, {"Cancel", {}}});
+        {{"Replace", [this, file, name] { saveTo(mSession.activeMaterial, file, name); }},
+         {"Cancel", {}}});
 }
 
 void FileActions::exportGltf() {
@@ -233,7 +237,13 @@ void FileActions::guardMaterial(const std::function<void()>& act) {
         act();
         return;
     }
-    ask("Unsaved changes", "The material has changes that are not saved.",
+    askAboutMaterial(act);
+}
+
+void FileActions::askAboutMaterial(const std::function<void()>& act) {
+    ask("Unsaved changes",
+        mSession.materialCount() > 1 ? "Materials have changes that are not saved."
+                                     : "The material has changes that are not saved.",
         {{"Save\xe2\x80\xa6", [this, act] { save(act); }},
          {"Do not save", act}, // still modified, should opening fail
          {"Cancel", {}}});

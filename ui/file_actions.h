@@ -45,6 +45,8 @@ public:
 
     /// Acts, after asking where changes would be lost.
     void guard(const std::function<void()>& act);
+    /// What guard() asks where a material has unsaved changes.
+    void askAboutMaterial(const std::function<void()>& act);
     void ask(const std::string& title, const std::string& text,
              std::vector<Question::Answer> answers) {
         mQuestion.ask(title, text, std::move(answers));
@@ -62,7 +64,8 @@ public:
 private:
     void choose(FileDialog::Kind kind, const std::string& title, std::vector<std::string> suffixes,
                 const std::string& name, std::function<void(const std::filesystem::path&)> done);
-    bool saveTo(int material, const std::filesystem::path& file);
+    /// @param name of the material from now on; empty: as it is
+    bool saveTo(int material, const std::filesystem::path& file, const std::string& name = {});
     void saveAs(int material, const std::function<void()>& then);
     /// All that are modified from this one on, one after the other.
     void saveFrom(int material, const std::function<void()>& then);

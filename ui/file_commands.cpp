@@ -121,11 +121,12 @@ void addFileCommands(Session& session) {
                  });
     commands.add("file.export", "Writes a glTF with the materials as SubEdit files beside it",
                  [&session](const Arguments& a) { exportGltf(session, a.text("file")); });
-    commands.add("file.save", "Writes the material that is worked on to a .subedit.exr",
+    commands.add("file.save",
+                 "Writes a material to a .subedit.exr: file; material, if not the active one; name",
                  [&session](const Arguments& a) {
                      const int material = a.has("material") ? a.integerWithin("material", 0, 64)
                                                             : session.activeMaterial;
-                     const subedit::Document* const document = session.document(material);
+                     subedit::Document* const document = session.document(material);
                      if (document == nullptr) {
                          throw UsageError("save", "there is no material", "open a model first");
                      }
@@ -133,6 +134,9 @@ void addFileCommands(Session& session) {
                      if (!file.filename().string().ends_with(".subedit.exr")) {
                          throw UsageError(fmt::format("'{}'", file.string()),
                                           "is no name of a material", "let it end in .subedit.exr");
+                     }
+                     if (a.has("name")) {
+                         document->rename(a.text("name"));
                      }
                      writeMaterialFile(session, document->material(), file);
                      session.setMaterialFile(material, file);

@@ -82,14 +82,7 @@ Window::Window(const std::string& title, glm::ivec2 size, double scale) : mTitle
     glfwSetWindowSizeLimits(mWindow, kLeastSize, kLeastSize, GLFW_DONT_CARE, GLFW_DONT_CARE);
     mContext = gl::createWindowContext(mWindow);
     glfwSwapInterval(mContext->isSoftware() ? 0 : 1);
-    if (scale > 0.0) {
-        mScale = static_cast<float>(scale);
-    } else {
-        float x = 1.0f;
-        float y = 1.0f;
-        glfwGetWindowContentScale(mWindow, &x, &y);
-        mScale = std::clamp(std::max(x, y), 0.5f, 4.0f);
-    }
+    setScale(static_cast<float>(scale));
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr; // the layout is fixed
     ImGui::GetIO().LogFilename = nullptr;
@@ -193,6 +186,12 @@ glm::ivec2 Window::sizePx() const {
 }
 
 void Window::setScale(float scale) {
+    if (scale <= 0.0f) {
+        float x = 1.0f;
+        float y = 1.0f;
+        glfwGetWindowContentScale(mWindow, &x, &y);
+        scale = std::max(x, y);
+    }
     mScale = std::clamp(scale, 0.5f, 4.0f);
     mFontsStale = true;
     mHadEvents = true;

@@ -46,6 +46,7 @@ public:
     [[nodiscard]] glm::ivec2 sizePx() const;
     /// Screen pixels per unit of layout.
     [[nodiscard]] float scale() const { return mScale; }
+    /// @param scale 0: what the display says
     void setScale(float scale);
     void setTheme(Theme theme);
 

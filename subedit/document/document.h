@@ -74,6 +74,9 @@ public:
     [[nodiscard]] std::shared_ptr<const Surface> surfacePointer() const { return mSurface; }
     [[nodiscard]] const WeightMask& selection() const { return mSelection; }
 
+    /// What it is called in files and lists. No edit: it cannot be undone.
+    void rename(const std::string& name) { mMaterial->name = name; }
+
     /// Does a whole command; what was undone before can no longer be redone.
     EditReport execute(const EditCommand& command);
 

@@ -366,7 +366,7 @@ std::uint64_t Document::redoOrder() const {
 
 std::uint64_t Document::contentId() const {
     for (std::size_t e = mDone; e-- > 0;) {
-        if (!mHistory[e]->isSelection()) {
+        if (!mHistory[e]->isSelection() && mHistory[e]->report.texels > 0) {
             return mHistory[e]->order;
         }
     }
