@@ -48,6 +48,7 @@ private:
     void step();
     void poll();
     void pollOpening();
+    void pollSaving();
     void worldOpened();
     void recoverSome();
     void finishRecovery();
@@ -264,8 +265,9 @@ void Editor::offerRecovery() {
         return;
     }
     mFiles.ask("Recovery",
-               fmt::format("Celadon did not close properly. There are {} steps of painting on '{}' "
-                           "that were perhaps not saved.",
+               fmt::format("Celadon did not close properly{}. There are {} steps of painting on "
+                           "'{}' that were perhaps not saved.",
+                           found->reason.empty() ? "" : " (" + found->reason + ")",
                            found->commands.size(), found->opened.model),
                {{"Recover",
                  [this, recovery = *found] {
@@ -279,8 +281,13 @@ void Editor::offerRecovery() {
 void Editor::run() {
     mOpen.start(mOptions.open);
     offerRecovery();
-    while (!mShouldClose) {
-        step();
+    try {
+        while (!mShouldClose) {
+            step();
+        }
+    } catch (const ContextError& error) { // a window that vanishes cannot say why
+        mJournal.explain(error.what());
+        throw;
     }
     mJournal.finish();
 }
@@ -349,7 +356,7 @@ double Editor::secondsToSleep() const {
     const auto atMost = [&seconds](double most) {
         seconds = seconds < 0.0 ? most : std::min(seconds, most);
     };
-    if (mOpen.isRunning() || mJobs.running()) {
+    if (mOpen.isRunning() || mFiles.saving().isRunning() || mJobs.running()) {
         atMost(0.25); // the status bar shows how far it is
     }
     if (mLayout.isTurning || mSession.motion.isPlaying) {
@@ -375,6 +382,7 @@ void Editor::poll() {
         mFramesToDraw = kSettlingFrames;
     }
     pollOpening();
+    pollSaving();
     if (mRecovering) {
         recoverSome();
     }
@@ -418,6 +426,19 @@ void Editor::pollOpening() {
     if (mSession.worldRevision() != mSeenWorld) {
         mSeenWorld = mSession.worldRevision();
         worldOpened();
+    }
+}
+
+void Editor::pollSaving() {
+    const BackgroundSave& save = mFiles.saving();
+    if (save.isRunning() && save.seconds() > 0.3) {
+        mLayout.activity = fmt::format("Saving {} \xe2\x80\xa6 {:.0f} s",
+                                       save.file().filename().string(), save.seconds());
+        mFramesToDraw = std::max(mFramesToDraw, 1);
+    }
+    if (mFiles.poll()) {
+        mLayout.activity.clear();
+        mFramesToDraw = kSettlingFrames;
     }
 }
 

@@ -3,6 +3,7 @@
 #include "renderer/scene/load_deformers.h"
 #include "subedit/errors.h"
 #include "ui/user_folders.h"
+#include "ui/window.h"
 
 #include <fmt/format.h>
 
@@ -26,7 +27,11 @@ std::string lowered(std::string text) {
 
 FileActions::FileActions(Session& session, BackgroundOpen& open, Preferences& preferences,
                          bool isUnattended)
-    : mSession(session), mOpen(open), mPreferences(preferences), mIsUnattended(isUnattended) {}
+    : mSession(session),
+      mOpen(open),
+      mPreferences(preferences),
+      mIsUnattended(isUnattended),
+      mSave(session, [] { Window::wake(); }) {}
 
 void FileActions::open(const OpenRequest& request) {
     const std::function<void()> act = [this, request] { mOpen.start(request); };
@@ -94,22 +99,21 @@ void FileActions::saveDeformers(const std::function<void()>& then) {
            });
 }
 
-bool FileActions::saveTo(int material, const std::filesystem::path& file, const std::string& name) {
-    Command save{"file.save", {{"file", file.string()}}};
-    if (!name.empty()) {
-        save.arguments["name"] = name;
+void FileActions::saveTo(const MaterialSave& save, const std::function<void()>& then) {
+    if (mIsUnattended) {
+        Command command{"file.save", {{"file", save.file.string()}, {"material", save.material}}};
+        if (mSession.perform(command) && then) {
+            then();
+        }
+        return;
     }
-    if (mSession.materialCount() > 1) {
-        save.arguments["material"] = material;
-    }
-    if (!mSession.perform(save)) {
-        return false;
-    }
-    if (!mIsUnattended) {
+    mSave.start(save, [this, file = save.file, then] {
         addRecent(mPreferences.recentMaterials, file.string());
         savePreferences();
-    }
-    return true;
+        if (then) {
+            then();
+        }
+    });
 }
 
 void FileActions::saveAs(int material, const std::function<void()>& then) {
@@ -124,9 +128,7 @@ void FileActions::saveAs(int material, const std::function<void()>& then) {
                                         : "Save the material",
            {kMaterialSuffix}, file.empty() ? label + kMaterialSuffix : file.filename().string(),
            [this, material, then](const auto& chosen) {
-               if (saveTo(material, chosen) && then) {
-                   then();
-               }
+               saveTo({material, chosen, {}}, then);
            });
 }
 
@@ -134,7 +136,7 @@ void FileActions::saveFrom(int material, const std::function<void()>& then) {
     while (material < mSession.materialCount() && !mSession.isModified(material)) {
         ++material;
     }
-    if (material == mSession.materialCount()) {
+    if (material >= mSession.materialCount()) {
         if (then) {
             then();
         }
@@ -143,8 +145,8 @@ void FileActions::saveFrom(int material, const std::function<void()>& then) {
     const auto next = [this, material, then] { saveFrom(material + 1, then); };
     if (mSession.materialFile(material).empty()) {
         saveAs(material, next);
-    } else if (saveTo(material, mSession.materialFile(material))) {
-        next();
+    } else {
+        saveTo({material, mSession.materialFile(material), {}}, next);
     }
 }
 
@@ -154,8 +156,8 @@ void FileActions::save(const std::function<void()>& then) {
         saveFrom(0, then);
     } else if (mSession.materialFile(active).empty()) {
         saveAs(active, then);
-    } else if (saveTo(active, mSession.materialFile(active)) && then) {
-        then();
+    } else {
+        saveTo({active, mSession.materialFile(active), {}}, then);
     }
 }
 
@@ -165,11 +167,14 @@ void FileActions::saveAsNew(const std::string& name) {
     std::filesystem::create_directories(folder, failed);
     const std::filesystem::path file = folder / (name + kMaterialSuffix);
     if (!std::filesystem::exists(file, failed)) {
-        saveTo(mSession.activeMaterial, file, name);
+        saveTo({mSession.activeMaterial, file, name}, {});
         return;
     }
     ask("Replace?", fmt::format("There is a material '{}' already.", name),
-        {{"Replace", [this, file, name] { saveTo(mSession.activeMaterial, file, name); }},
+        {{"Replace",
+          [this, file, name] {
+              saveTo({mSession.activeMaterial, file, name}, {});
+          }},
          {"Cancel", {}}});
 }
 
@@ -244,7 +249,7 @@ void FileActions::askAboutMaterial(const std::function<void()>& act) {
     ask("Unsaved changes",
         mSession.materialCount() > 1 ? "Materials have changes that are not saved."
                                      : "The material has changes that are not saved.",
-        {{"Save\xe2\x80\xa6", [this, act] { save(act); }},
+        {{"Save\xe2\x80\xa6", [this, act] { save([this, act] { guardMaterial(act); }); }},
          {"Do not save", act}, // still modified, should opening fail
          {"Cancel", {}}});
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ui/background_open.h"
+#include "ui/material_save.h"
 #include "ui/panels/file_dialog.h"
 #include "ui/panels/question.h"
 #include "ui/preferences.h"
@@ -56,6 +57,10 @@ public:
     void remember(const OpenRequest& opened);
     void savePreferences();
 
+    [[nodiscard]] const BackgroundSave& saving() const { return mSave; }
+    /// Takes note of saves that are done. @return whether something changed
+    bool poll() { return mSave.poll(); }
+
     [[nodiscard]] bool isAsking() const { return mFiles.isOpen() || mQuestion.isOpen(); }
     /// Why the file dialog asks once more; empty: it does not.
     [[nodiscard]] const std::string& problem() const { return mFiles.problem(); }
@@ -64,8 +69,8 @@ public:
 private:
     void choose(FileDialog::Kind kind, const std::string& title, std::vector<std::string> suffixes,
                 const std::string& name, std::function<void(const std::filesystem::path&)> done);
-    /// @param name of the material from now on; empty: as it is
-    bool saveTo(int material, const std::filesystem::path& file, const std::string& name = {});
+    /// @param then once it is written
+    void saveTo(const MaterialSave& save, const std::function<void()>& then);
     void saveAs(int material, const std::function<void()>& then);
     /// All that are modified from this one on, one after the other.
     void saveFrom(int material, const std::function<void()>& then);
@@ -77,6 +82,7 @@ private:
     BackgroundOpen& mOpen;
     Preferences& mPreferences;
     bool mIsUnattended;
+    BackgroundSave mSave;
     FileDialog mFiles;
     Question mQuestion;
     std::filesystem::path mLastFolder;

@@ -5,6 +5,7 @@
 #include "renderer/scene/write_gltf.h"
 #include "subedit/errors.h"
 #include "subedit/map/material_file.h"
+#include "ui/material_save.h"
 #include "ui/session.h"
 
 #include <fmt/format.h>
@@ -124,24 +125,9 @@ void addFileCommands(Session& session) {
     commands.add("file.save",
                  "Writes a material to a .subedit.exr: file; material, if not the active one; name",
                  [&session](const Arguments& a) {
-                     const int material = a.has("material") ? a.integerWithin("material", 0, 64)
-                                                            : session.activeMaterial;
-                     subedit::Document* const document = session.document(material);
-                     if (document == nullptr) {
-                         throw UsageError("save", "there is no material", "open a model first");
-                     }
-                     const std::filesystem::path file = a.text("file");
-                     if (!file.filename().string().ends_with(".subedit.exr")) {
-                         throw UsageError(fmt::format("'{}'", file.string()),
-                                          "is no name of a material", "let it end in .subedit.exr");
-                     }
-                     if (a.has("name")) {
-                         document->rename(a.text("name"));
-                     }
-                     writeMaterialFile(session, document->material(), file);
-                     session.setMaterialFile(material, file);
-                     session.markSaved(material);
-                     session.notify(Notice::Kind::Info, fmt::format("Saved '{}'", file.string()));
+                     saveMaterial(session, {a.has("material") ? a.integerWithin("material", 0, 64)
+                                                              : session.activeMaterial,
+                                            a.text("file"), a.text("name", "")});
                  });
 }
 

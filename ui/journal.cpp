@@ -16,6 +16,7 @@ namespace {
 
 constexpr const char* kHeader = "journal";
 constexpr const char* kKept = "journal.kept"; ///< a file that was replaced, and where it is now
+constexpr const char* kReason = "journal.reason";
 constexpr const char* kSuffix = ".journal";
 constexpr const char* kKeptSuffix = ".kept.exr";
 
@@ -122,6 +123,12 @@ std::optional<std::string> Journal::keep(const std::filesystem::path& file) {
     return std::nullopt;
 }
 
+void Journal::explain(const std::string& reason) {
+    if (mStream.is_open()) {
+        write({kReason, {{"text", reason}}});
+    }
+}
+
 void Journal::finish() {
     mStream = {};
     mHasFailed = false;
@@ -157,7 +164,12 @@ std::optional<Recovery> findRecovery(const std::filesystem::path& folder) {
             const Arguments arguments(header);
             commands.erase(commands.begin());
             OpenRequest opened{arguments.text("model"), arguments.text("material"), {}};
-            std::erase_if(commands, [&opened](const Command& command) {
+            std::string reason;
+            std::erase_if(commands, [&](const Command& command) {
+                if (command.name == kReason) {
+                    reason = Arguments(command).text("text");
+                    return true;
+                }
                 if (command.name != kKept) {
                     return false;
                 }
@@ -167,7 +179,7 @@ std::optional<Recovery> findRecovery(const std::filesystem::path& folder) {
             });
             const auto time = entry.last_write_time(failed);
             if (!commands.empty() && (!latest || time > latestTime)) {
-                latest = Recovery{file, std::move(opened), std::move(commands)};
+                latest = Recovery{file, std::move(opened), std::move(commands), reason};
                 latestTime = time;
             }
         } catch (const Error&) {

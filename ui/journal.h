@@ -34,6 +34,9 @@ public:
     /// To be called before a file is written: keeps what stands there, if any change is in the
     /// journal. @return what went wrong
     [[nodiscard]] std::optional<std::string> keep(const std::filesystem::path& file);
+    /// Why the session ends before its time, for who recovers it; nothing where there is nothing to
+    /// recover.
+    void explain(const std::string& reason);
     /// Nothing is left to recover.
     void finish();
 
@@ -52,6 +55,7 @@ struct Recovery {
     std::filesystem::path file;
     OpenRequest opened;
     std::vector<Command> commands;
+    std::string reason{}; ///< why it ended; empty: it could not say
 };
 
 /// The latest journal of a process that is no more; broken ones are passed over.

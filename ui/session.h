@@ -124,7 +124,8 @@ public:
     [[nodiscard]] bool isModified(int material) const;
     /// Any of them.
     [[nodiscard]] bool isModified() const;
-    void markSaved(int material);
+    /// @param content Document::contentId() of what is in the file
+    void markSaved(int material, std::uint64_t content);
     /// Where Save writes; empty: nobody has said yet.
     [[nodiscard]] const std::filesystem::path& materialFile(int material) const {
         return mFiles[static_cast<std::size_t>(material)];

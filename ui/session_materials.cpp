@@ -118,8 +118,8 @@ bool Session::isModified() const {
     return false;
 }
 
-void Session::markSaved(int material) {
-    mSaved[static_cast<std::size_t>(material)] = document(material)->contentId();
+void Session::markSaved(int material, std::uint64_t content) {
+    mSaved[static_cast<std::size_t>(material)] = content;
 }
 
 void Session::forgetMaterialFiles() {

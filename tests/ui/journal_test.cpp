@@ -55,6 +55,22 @@ TEST(Journal, LosesAtMostTheLineThatWasCut) {
     EXPECT_EQ(found->commands.size(), 1u);
 }
 
+TEST(Journal, SaysWhyItEnded) {
+    const test::TemporaryFolder folder;
+    {
+        Journal journal(folder.path());
+        journal.begin({"m", ""});
+        journal.explain("nothing was done: nothing to recover");
+        EXPECT_FALSE(journal.add(kEdit));
+        journal.explain("the driver was reset");
+    }
+    abandon(folder.path());
+    const auto found = findRecovery(folder.path());
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->commands.size(), 1u);
+    EXPECT_EQ(found->reason, "the driver was reset");
+}
+
 TEST(Journal, LeavesNothingBehindWhenFinished) {
     const test::TemporaryFolder folder;
     Journal journal(folder.path());
