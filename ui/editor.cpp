@@ -27,6 +27,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace celadon::ui {
 
@@ -62,6 +64,7 @@ private:
     void handleInput();
     void advanceScript();
     void setActions();
+    void applyPreferences();
     void addWindowCommands();
     void addExportCommands();
     void keepJournal();
@@ -133,7 +136,8 @@ Editor::Editor(const EditorOptions& options)
 
 void Editor::keepJournal() {
     mSession.dispatcher().observe([this](const Command& command) {
-        if (mPreferences.autosave && !mScript.isUnattended()) {
+        // Steps that are recovered stay in the journal that they come from until all are done.
+        if (mPreferences.autosave && !mScript.isUnattended() && !mRecovering) {
             if (const auto problem = mJournal.add(command)) {
                 mSession.notify(Notice::Kind::Warning, *problem);
             }
@@ -244,18 +248,25 @@ void Editor::setActions() {
     mActions.toggleFullScreen = [this] { mWindow.toggleFullScreen(); };
     mActions.togglePlay = [this] { togglePlay(); };
     mActions.toggleTurntable = [this] { mLayout.isTurning = !mLayout.isTurning; };
-    mActions.quit = [this] { mFiles.guard([this] { mShouldClose = true; }); };
-    const auto apply = [this] {
-        mWindow.setTheme(mPreferences.theme);
-        mSession.setHistoryBytes(static_cast<std::size_t>(mPreferences.undoMegabytes * 1048576.0));
+    mActions.quit = [this] {
+        if (mRecovering) {
+            mSession.notify(Notice::Kind::Info, "A recovery is under way, and soon done");
+            return;
+        }
+        mFiles.guard([this] { mShouldClose = true; });
     };
-    apply();
-    mActions.preferencesChanged = [this, apply] {
-        apply();
+    applyPreferences();
+    mActions.preferencesChanged = [this] {
+        applyPreferences();
         mWindow.setScale(
             static_cast<float>(mPreferences.uiScale > 0.0 ? mPreferences.uiScale : mOptions.scale));
         mFiles.savePreferences();
     };
+}
+
+void Editor::applyPreferences() {
+    mWindow.setTheme(mPreferences.theme);
+    mSession.setHistoryBytes(static_cast<std::size_t>(mPreferences.undoMegabytes * 1048576.0));
 }
 
 void Editor::offerRecovery() {
@@ -346,6 +357,9 @@ double Editor::secondsToFrame() const {
 }
 
 double Editor::secondsToSleep() const {
+    if (mRecovering) {
+        return 0.0;
+    }
     if (mustDraw()) {
         return std::max(secondsToFrame(), 0.0);
     }
@@ -369,7 +383,7 @@ double Editor::secondsToSleep() const {
 }
 
 void Editor::poll() {
-    if (mOptions.watch && !mOpen.isRunning() && mSession.hasWorld() &&
+    if (mOptions.watch && !mOpen.isRunning() && !mRecovering && mSession.hasWorld() &&
         mWatch.hasChanged(mSession.opened())) {
         if (mSession.isModified()) {
             mSession.notify(Notice::Kind::Warning,
@@ -401,6 +415,10 @@ void Editor::poll() {
         mFramesToDraw = kSettlingFrames;
     }
     for (const std::filesystem::path& file : mWindow.takeDroppedFiles()) {
+        if (mRecovering || mRecovery) {
+            mSession.notify(Notice::Kind::Info, "Drop it again when the recovery is done");
+            continue;
+        }
         mFiles.drop(file);
         mFramesToDraw = kSettlingFrames;
     }
@@ -418,6 +436,9 @@ void Editor::pollOpening() {
     mFramesToDraw = kSettlingFrames;
     if (!mOpen.isRunning()) {
         mLayout.activity.clear();
+        if (mRecovery && mSession.worldRevision() == mSeenWorld) {
+            mRecovery.reset(); // it could not be opened, or was given up: its journal stays
+        }
     }
     if (mSession.hasWorld() && !mIsPlaced && mOptions.place) {
         mOptions.place(mSession);
@@ -445,9 +466,10 @@ void Editor::pollSaving() {
 void Editor::worldOpened() {
     mFiles.remember(mSession.opened());
     mJournal.begin(mSession.opened());
-    if (mRecovery && mRecovery->opened.model == mSession.opened().model) {
+    if (mRecovery && mRecovery->opened == mSession.opened()) {
         mRecovering = std::exchange(mRecovery, std::nullopt);
         mRecovered = mRecoveredWell = 0;
+        mSession.setHistoryBytes(std::numeric_limits<std::size_t>::max()); // as much as was undone
     }
 }
 
@@ -461,21 +483,28 @@ void Editor::recoverSome() {
         mRecoveredWell += mSession.perform(commands[mRecovered++]) ? 1 : 0;
     }
     mFramesToDraw = kSettlingFrames;
-    mLayout.activity = fmt::format("Recovering, step {} of {}; {} stops there", mRecovered,
-                                   commands.size(), mPreferences.keys.text(Action::Cancel));
+    mLayout.activity = fmt::format("Recovering, step {} of {}", mRecovered, commands.size());
     if (mRecovered == commands.size()) {
         finishRecovery();
     }
 }
 
 void Editor::finishRecovery() {
+    const Recovery recovered = std::move(*std::exchange(mRecovering, std::nullopt));
+    if (mPreferences.autosave) {
+        for (const Command& command : recovered.commands) {
+            if (const auto problem = mJournal.add(command)) {
+                mSession.notify(Notice::Kind::Warning, *problem);
+            }
+        }
+    }
+    std::error_code ignored;
+    std::filesystem::remove(recovered.file, ignored);
+    mSession.forgetMaterialFiles(); // nothing takes a file's name unless asked to
+    applyPreferences();
     mSession.notify(Notice::Kind::Info,
                     fmt::format("Recovered {} of {} steps; they are not saved yet", mRecoveredWell,
-                                mRecovering->commands.size()));
-    mSession.forgetMaterialFiles(); // nothing takes a file's name unless asked to
-    std::error_code ignored;
-    std::filesystem::remove(mRecovering->file, ignored);
-    mRecovering.reset();
+                                recovered.commands.size()));
     mLayout.activity.clear();
     mFramesToDraw = kSettlingFrames;
 }
@@ -582,9 +611,6 @@ void Editor::handleInput() {
             }
             const std::optional<Action> action = mPreferences.keys.find(pressed);
             if (mRecovering) {
-                if (action == Action::Cancel) {
-                    finishRecovery();
-                }
                 continue;
             }
             if (action && (!event.isRepeated || repeats(*action)) && !io.WantTextInput &&

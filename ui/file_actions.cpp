@@ -101,8 +101,7 @@ void FileActions::saveDeformers(const std::function<void()>& then) {
 
 void FileActions::saveTo(const MaterialSave& save, const std::function<void()>& then) {
     if (mIsUnattended) {
-        Command command{"file.save", {{"file", save.file.string()}, {"material", save.material}}};
-        if (mSession.perform(command) && then) {
+        if (mSession.perform(saveCommand(save)) && then) {
             then();
         }
         return;
@@ -238,6 +237,7 @@ void FileActions::guardDeformers(const std::function<void()>& act) {
 }
 
 void FileActions::guardMaterial(const std::function<void()>& act) {
+    mSave.wait(); // what is being written may be all that there is to ask about
     if (!mSession.isModified() || mIsUnattended) {
         act();
         return;

@@ -11,6 +11,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cctype>
+
 namespace celadon::ui {
 
 namespace {
@@ -43,7 +46,13 @@ void writeMaterialFile(const Session& session, const subedit::MaterialMap& mater
     subedit::writeMaterial(material, file);
 }
 
-/// Of the materials that are painted, as glTF has them; each is written beside the file.
+/// Name of the file that a material goes into, beside the export.
+std::string exportedName(const std::filesystem::path& file, int material) {
+    return file.stem().string() + (material > 0 ? fmt::format("_{}", material + 1) : "") +
+           ".subedit.exr";
+}
+
+/// The materials that are painted, as glTF has them.
 std::vector<nlohmann::json> exportMaterials(const Session& session,
                                             const std::filesystem::path& file) {
     std::vector<nlohmann::json> materials;
@@ -52,12 +61,33 @@ std::vector<nlohmann::json> exportMaterials(const Session& session,
         if (document == nullptr) {
             throw UsageError("export", fmt::format("material {} cannot be painted", i));
         }
-        const std::string name =
-            file.stem().string() + (i > 0 ? fmt::format("_{}", i + 1) : "") + ".subedit.exr";
-        writeMaterialFile(session, document->material(), file.parent_path() / name);
-        materials.push_back(session.services().describeMaterial(document->material(), name));
+        materials.push_back(
+            session.services().describeMaterial(document->material(), exportedName(file, i)));
     }
     return materials;
+}
+
+bool isGltf(const std::filesystem::path& model) {
+    std::string suffix = model.extension().string();
+    std::ranges::transform(suffix, suffix.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return suffix == ".gltf" || suffix == ".glb";
+}
+
+/// What a glTF that is made of the world alone lacks.
+std::vector<std::string> leftOut(const Session& session) {
+    std::vector<std::string> lost;
+    const World& world = session.world();
+    if (world.rig != nullptr && !world.rig->animations.empty()) {
+        lost.emplace_back("animations");
+    }
+    if (!world.cameras.empty()) {
+        lost.emplace_back("cameras");
+    }
+    if (!world.lights.empty()) {
+        lost.emplace_back("lights");
+    }
+    return lost;
 }
 
 /// A glTF that was opened keeps all that it has but for materials and deformers, unless its
@@ -78,9 +108,8 @@ void exportGltf(Session& session, const std::filesystem::path& file) {
     constexpr double kMmPerMeter = 1e3;
     const double metersPerUnit = world.millimetersPerUnit / kMmPerMeter;
     const DeformerStack stack = inUnits(session.motion.now.deformers, metersPerUnit);
-    const bool isGltf = model.extension() == ".gltf" || model.extension() == ".glb";
     std::vector<std::string> lost;
-    if (isGltf && !world.hasAutomaticAtlas) {
+    if (isGltf(model) && !world.hasAutomaticAtlas) {
         loaders::GltfChanges changes;
         for (const WorldMesh& part : world.meshes) {
             if (part.scattering >= 0) { // looks are numbered as in the file
@@ -97,16 +126,18 @@ void exportGltf(Session& session, const std::filesystem::path& file) {
             extras["celadon"] = loaders::deformersJson(stack);
         }
         writeGltf(world, materials, extras, file);
-        if (world.rig != nullptr && !world.rig->animations.empty()) {
-            lost.emplace_back("its animations, because the model came without texture coordinates");
-        }
+        lost = leftOut(session);
+    }
+    for (int i = 0; i < session.materialCount(); ++i) {
+        writeMaterialFile(session, session.document(i)->material(),
+                          file.parent_path() / exportedName(file, i));
     }
     session.notify(Notice::Kind::Info,
                    fmt::format("Exported '{}' with {} beside it", file.string(),
                                materials.size() > 1 ? "its materials" : "its material"));
     if (!lost.empty()) {
         session.notify(Notice::Kind::Warning,
-                       fmt::format("The export lacks {}", fmt::join(lost, ", ")));
+                       fmt::format("The export lacks {} of the model", fmt::join(lost, ", ")));
     }
 }
 
@@ -125,9 +156,12 @@ void addFileCommands(Session& session) {
     commands.add("file.save",
                  "Writes a material to a .subedit.exr: file; material, if not the active one; name",
                  [&session](const Arguments& a) {
-                     saveMaterial(session, {a.has("material") ? a.integerWithin("material", 0, 64)
-                                                              : session.activeMaterial,
-                                            a.text("file"), a.text("name", "")});
+                     saveMaterial(session,
+                                  {a.has("material")
+                                       ? a.integerWithin("material", 0,
+                                                         std::max(0, session.materialCount() - 1))
+                                       : session.activeMaterial,
+                                   a.text("file"), a.text("name", "")});
                  });
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
@@ -177,6 +178,13 @@ std::optional<Recovery> findRecovery(const std::filesystem::path& folder) {
                 opened.readInstead[kept.text("file")] = kept.text("as");
                 return true;
             });
+            // Another session may have saved and gone on from the same.
+            const bool isWhole = std::ranges::all_of(opened.readInstead, [&](const auto& kept) {
+                return std::filesystem::exists(kept.second, failed);
+            });
+            if (!isWhole) {
+                continue;
+            }
             const auto time = entry.last_write_time(failed);
             if (!commands.empty() && (!latest || time > latestTime)) {
                 latest = Recovery{file, std::move(opened), std::move(commands), reason};

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <exception>
 #include <memory>
 #include <utility>
 
@@ -18,12 +19,12 @@ subedit::Document& prepare(Session& session, const MaterialSave& save) {
     if (document == nullptr) {
         throw UsageError("save", "there is no material", "open a model first");
     }
+    if (session.isStrokeOpen()) {
+        throw UsageError("save", "a stroke is under way");
+    }
     if (!save.file.filename().string().ends_with(".subedit.exr")) {
         throw UsageError(fmt::format("'{}'", save.file.string()), "is no name of a material",
                          "let it end in .subedit.exr");
-    }
-    if (!save.name.empty()) {
-        document->rename(save.name);
     }
     if (session.beforeWriting) {
         session.beforeWriting(save.file);
@@ -39,20 +40,44 @@ void takeNote(Session& session, const MaterialSave& save, std::uint64_t content)
 
 } // namespace
 
+Command saveCommand(const MaterialSave& save) {
+    Command command{"file.save", {{"file", save.file.string()}, {"material", save.material}}};
+    if (!save.name.empty()) {
+        command.arguments["name"] = save.name;
+    }
+    return command;
+}
+
 void saveMaterial(Session& session, const MaterialSave& save) {
-    const subedit::Document& document = prepare(session, save);
-    subedit::writeMaterial(document.material(), save.file);
+    subedit::Document& document = prepare(session, save);
+    const std::string before = document.material().name;
+    if (!save.name.empty()) {
+        document.rename(save.name);
+    }
+    try {
+        subedit::writeMaterial(document.material(), save.file);
+    } catch (const Error&) {
+        document.rename(before);
+        throw;
+    }
     takeNote(session, save, document.contentId());
 }
 
-void BackgroundSave::start(const MaterialSave& save, std::function<void()> then) {
-    if (isRunning()) {
+void BackgroundSave::wait() {
+    while (isRunning()) { // what comes after one may begin another
         mFuture.wait();
         finish();
     }
+}
+
+void BackgroundSave::start(const MaterialSave& save, std::function<void()> then) {
+    wait();
     try {
         const subedit::Document& document = prepare(mSession, save);
-        auto copy = std::make_shared<const subedit::MaterialMap>(document.material());
+        auto copy = std::make_shared<subedit::MaterialMap>(document.material());
+        if (!save.name.empty()) {
+            copy->name = save.name;
+        }
         mSave = save;
         mContent = document.contentId();
         mWorld = mSession.worldRevision();
@@ -63,16 +88,12 @@ void BackgroundSave::start(const MaterialSave& save, std::function<void()> then)
                                  const std::shared_ptr<void> atEnd(nullptr, [&](void*) { wake(); });
                                  subedit::writeMaterial(*copy, file);
                              });
-    } catch (const Error& error) {
+    } catch (const std::exception& error) { // no memory, no thread
         mSession.notify(Notice::Kind::Error, error.what());
         return;
     }
     // Of the material as it is now: strokes that follow come after it in the record as well.
-    Command command{"file.save", {{"file", save.file.string()}, {"material", save.material}}};
-    if (!save.name.empty()) {
-        command.arguments["name"] = save.name;
-    }
-    mSession.dispatcher().announce(command);
+    mSession.dispatcher().announce(saveCommand(save));
 }
 
 double BackgroundSave::seconds() const {
@@ -96,6 +117,9 @@ void BackgroundSave::finish() {
         return;
     }
     if (mWorld == mSession.worldRevision()) {
+        if (!mSave.name.empty()) {
+            mSession.document(mSave.material)->rename(mSave.name);
+        }
         takeNote(mSession, mSave, mContent);
     }
     if (then) {

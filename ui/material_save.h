@@ -21,7 +21,11 @@ struct MaterialSave {
     std::string name; ///< of the material from now on; empty: as it is
 };
 
-/// @throws UsageError: no such material, no name of a material file; OutputError
+/// The command that does it.
+[[nodiscard]] Command saveCommand(const MaterialSave& save);
+
+/// @throws UsageError: no such material, no name of a material file, a stroke is under way;
+/// OutputError
 void saveMaterial(Session& session, const MaterialSave& save);
 
 class BackgroundSave {
@@ -34,6 +38,8 @@ public:
     /// @param then once it is written
     void start(const MaterialSave& save, std::function<void()> then);
     [[nodiscard]] bool isRunning() const { return mFuture.valid(); }
+    /// Until all is written.
+    void wait();
     [[nodiscard]] const std::filesystem::path& file() const { return mSave.file; }
     [[nodiscard]] double seconds() const;
     /// Takes note of what is written. @return whether something changed

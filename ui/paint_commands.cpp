@@ -73,20 +73,20 @@ subedit::SelectionStep selectionStep(const Arguments& a) {
 
 void Session::edit(const subedit::EditCommand& command) {
     subedit::Document& target = documentOf(*this, activeMaterial);
-    dropUndone(activeMaterial);
     const subedit::EditReport report = target.execute(command);
+    dropUndone(activeMaterial);
     mDispatcher.announce(editCommand(activeMaterial, command));
-    tell(report);
+    tell(report, std::holds_alternative<subedit::SelectCommand>(command));
     touchMaterial();
 }
 
-void Session::tell(const subedit::EditReport& report) {
+void Session::tell(const subedit::EditReport& report, bool isSelection) {
     if (report.grownRadiusMm) {
         notify(Notice::Kind::Info, fmt::format("Profiles now reach to {:.3g} mm (r_s): the edit "
                                                "needed more range",
                                                *report.grownRadiusMm));
     }
-    if (report.texels == 0 && activeDocument() != nullptr &&
+    if (report.texels == 0 && !isSelection && activeDocument() != nullptr &&
         activeDocument()->selection().isZero()) {
         notify(Notice::Kind::Warning, "Nothing is selected, so nothing changes: Select all, in the "
                                       "Edit menu, ends that");
@@ -145,9 +145,9 @@ void Session::endStroke() {
             subedit::SelectStroke{mStroke.brush, mStroke.mirror, mStroke.path},
             mStrokeInverted ? subedit::SelectMode::Subtract : adding};
     }
-    dropUndone(material);
     const subedit::EditReport report = mStrokeIsLive ? target.endStroke() : target.execute(edit);
-    tell(report);
+    dropUndone(material);
+    tell(report, mStrokeSelects);
     mDispatcher.announce(editCommand(material, edit));
     touchMaterial();
 }
@@ -171,8 +171,8 @@ void addPaintCommands(Session& session) {
                          subedit::parseCommand("paint.edit", a.value("edit").dump());
                      subedit::Document& document = documentOf(session, material);
                      session.activeMaterial = material; // as by the hand that did it
-                     session.dropUndone(material);
                      document.execute(edit);
+                     session.dropUndone(material);
                      session.touchMaterial();
                  });
     commands.add("edit.undo", "Takes back the last change of the material or of the deformers",

@@ -84,7 +84,6 @@ std::vector<std::shared_ptr<subedit::MaterialMap>> Session::takeRenderedMaterial
 }
 
 void Session::touchMaterial() {
-    ++mMaterialRevision;
     touchPicture();
 }
 

@@ -32,6 +32,7 @@ struct OpenRequest {
     /// Material files, by canonical path, and what is read in their place: how they were before a
     /// session that did not end well saved over them (journal.h).
     std::map<std::filesystem::path, std::filesystem::path> readInstead{};
+    bool operator==(const OpenRequest&) const = default;
 };
 
 /// What the editor cannot do by itself, given by the program.
@@ -108,10 +109,10 @@ public:
     void cancelStroke();
     [[nodiscard]] bool isStrokeOpen() const { return mStrokeMaterial >= 0; }
     /// Notices about what an edit ran into.
-    void tell(const subedit::EditReport& report);
+    void tell(const subedit::EditReport& report, bool isSelection);
     /// After anything that changed a document's content.
     void touchMaterial();
-    /// Before an edit of one: nothing that was undone in another can be redone after it.
+    /// After an edit of one: nothing that was undone in another can be redone after it.
     void dropUndone(int material);
     /// Takes back the latest edit of all materials, and activates its material; repeats the first
     /// that was taken back. @return whether there was any
@@ -182,7 +183,6 @@ public:
     void touchPicture() { ++mPictureRevision; }
     /// Grows when another world is opened.
     [[nodiscard]] std::uint64_t worldRevision() const { return mWorldRevision; }
-    [[nodiscard]] std::uint64_t materialRevision() const { return mMaterialRevision; }
 
 private:
     /// A model that is read again keeps its motion, as far as it still can.
@@ -221,7 +221,6 @@ private:
     bool mStrokeIsLive = false;  ///< the material follows; else all is done at the end
     std::uint64_t mPictureRevision = 1;
     std::uint64_t mWorldRevision = 0;
-    std::uint64_t mMaterialRevision = 0;
 };
 
 // Each file of commands registers its own (camera_commands.cpp and so on).

@@ -1,6 +1,7 @@
 // The materials of a session: their documents, what is undone and in which order, and their files.
 #include "ui/session.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace celadon::ui {
@@ -33,14 +34,19 @@ std::size_t Session::editCount() const {
 }
 
 int Session::latestEdited() const {
+    std::uint64_t first = 0; // what is older than a forgotten step cannot be undone before it
     int latest = -1;
     for (int i = 0; i < materialCount(); ++i) {
-        if (document(i) != nullptr && document(i)->canUndo() &&
+        if (document(i) == nullptr) {
+            continue;
+        }
+        first = std::max(first, document(i)->forgottenOrder());
+        if (document(i)->canUndo() &&
             (latest < 0 || document(i)->undoOrder() > document(latest)->undoOrder())) {
             latest = i;
         }
     }
-    return latest;
+    return latest >= 0 && document(latest)->undoOrder() > first ? latest : -1;
 }
 
 int Session::nextRedone() const {

@@ -131,16 +131,20 @@ void Window::installCallbacks() {
         event.wheel = y;
         self.mInput.push_back(event);
     });
-    glfwSetKeyCallback(mWindow,
-                       [](GLFWwindow* handle, int key, int scancode, int action, int modifiers) {
-                           Window& self = *windowOf(handle);
-                           self.mHadEvents = true;
-                           self.mKeys.push_back({key, scancode, action, modifiers});
-                           const KeyChord chord{labelledKey(key, scancode), modifiers};
-                           if (action != GLFW_RELEASE && !isTyped(chord)) {
-                               self.pushKey(chord, action == GLFW_REPEAT);
-                           }
-                       });
+    glfwSetKeyCallback(mWindow, [](GLFWwindow* handle, int key, int scancode, int action,
+                                   int modifiers) {
+        Window& self = *windowOf(handle);
+        self.mHadEvents = true;
+        self.mKeys.push_back({key, scancode, action, modifiers});
+        const KeyChord chord{labelledKey(key, scancode), modifiers};
+        self.mIsRepeating = action == GLFW_REPEAT;
+        // AltGr makes other characters, and is no Alt to GLFW on some systems.
+        const bool isAltGr =
+            glfwGetKey(handle, GLFW_KEY_RIGHT_ALT) == GLFW_PRESS && (modifiers & GLFW_MOD_ALT) == 0;
+        if (action != GLFW_RELEASE && !isTyped(chord) && !isAltGr) {
+            self.pushKey(chord, action == GLFW_REPEAT);
+        }
+    });
     glfwSetDropCallback(mWindow, [](GLFWwindow* handle, int count, const char** paths) {
         Window& self = *windowOf(handle);
         self.mHadEvents = true;
@@ -153,7 +157,7 @@ void Window::installCallbacks() {
         windowOf(handle)->mHadEvents = true;
         for (const TypedKey& typed : kTypedKeys) {
             if (typed.character == character) {
-                windowOf(handle)->pushKey(typed.chord, false);
+                windowOf(handle)->pushKey(typed.chord, windowOf(handle)->mIsRepeating);
             }
         }
         ImGui_ImplGlfw_CharCallback(handle, character);

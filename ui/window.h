@@ -91,6 +91,7 @@ private:
     Theme mTheme = Theme::Dark;
     bool mFontsStale = true;
     bool mHadEvents = true;
+    bool mIsRepeating = false; ///< the key whose character comes next
     std::string mTitle;
     std::vector<InputEvent> mInput;
     std::vector<std::filesystem::path> mDropped;

@@ -45,8 +45,8 @@ RadialCurves normalizedDiffusion(const Medium& medium, std::optional<DiffusionFi
     return normalizedDiffusionProfile(halfSpaceTotal(medium), length, *fit);
 }
 
-/// The medium with which a model returns as much light as is wanted: alpha' by the method of
-/// Illinois (regula falsi that halves the end that stays), all channels at once. What a model
+/// The medium with which a model returns as much light as is wanted: alpha' by regula falsi
+/// that halves the weight of the end that stays, all channels at once. What a model
 /// cannot return stays what alpha' = 1 gives.
 /// @param medium of the same mean free paths
 Medium mediumReturning(const ModelOptions& model, const Medium& medium, const glm::dvec3& wanted) {

@@ -70,18 +70,31 @@ std::size_t appendView(json& document, std::string& buffer, std::string_view byt
 }
 
 void writeGltfFile(json document, const std::string& buffer, const std::filesystem::path& file) {
+    document.erase("buffers");
+    if (buffer.empty()) {
+        subedit::writeTextFile(file, file.extension() == ".glb" ? binaryGltf(document, std::nullopt)
+                                                                : textOf(document, 1) + "\n");
+        return;
+    }
     json only = {{"byteLength", buffer.size()}};
     if (file.extension() == ".glb") {
         document["buffers"] = json::array({only});
         subedit::writeTextFile(file, binaryGltf(document, buffer));
         return;
     }
-    std::filesystem::path beside = file;
-    beside.replace_extension(".bin");
-    only["uri"] = escaped(beside.filename().string());
+    only["uri"] = escaped(bufferBeside(file).filename().string());
     document["buffers"] = json::array({only});
-    subedit::writeTextFile(beside, buffer);
-    subedit::writeTextFile(file, textOf(document, 1) + "\n");
+    subedit::PendingFile pendingBuffer(bufferBeside(file));
+    subedit::PendingFile pending(file);
+    subedit::writeTextFile(pendingBuffer.temporaryPath(), buffer);
+    subedit::writeTextFile(pending.temporaryPath(), textOf(document, 1) + "\n");
+    pendingBuffer.commit();
+    pending.commit();
+}
+
+std::filesystem::path bufferBeside(const std::filesystem::path& file) {
+    std::filesystem::path beside = file;
+    return beside.replace_extension(".bin");
 }
 
 void checkGltfName(const std::filesystem::path& file) {

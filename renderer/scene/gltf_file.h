@@ -20,9 +20,12 @@ std::size_t appendView(nlohmann::json& document, std::string& buffer, std::strin
 
 /// Writes FILE.glb, or FILE.gltf with FILE.bin beside it, and makes `buffer` the only one of the
 /// document.
-/// @throws OutputError; files that were there before are then untouched, or whole and new
+/// @throws OutputError; files that were there before are then untouched
 void writeGltfFile(nlohmann::json document, const std::string& buffer,
                    const std::filesystem::path& file);
+
+/// Where the buffer of a .gltf goes.
+[[nodiscard]] std::filesystem::path bufferBeside(const std::filesystem::path& file);
 
 /// @throws UsageError: neither .gltf nor .glb
 void checkGltfName(const std::filesystem::path& file);

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <new>
 #include <vector>
 
 namespace celadon::loaders {
@@ -74,7 +73,7 @@ std::string encodePng(const Image& image) {
     if (stbi_write_png_to_func(append, &bytes, image.width, image.height, channels,
                                isOpaque ? rgb.data() : image.rgba.data(),
                                image.width * channels) == 0) {
-        throw std::bad_alloc(); // nothing else can go wrong in memory
+        throw OutputError(fmt::format("picture '{}'", image.name), "cannot be encoded as PNG");
     }
     return bytes;
 }

@@ -18,7 +18,7 @@ inline constexpr int kMaxImageSide = 16384;
 /// side, or promises more pixels than its bytes can hold
 [[nodiscard]] Image decodeImage(std::string_view bytes, const std::string& place);
 
-/// The bytes of a PNG file, without its alpha where all of it is opaque.
+/// The bytes of a PNG file, without its alpha where all of it is opaque. @throws OutputError
 [[nodiscard]] std::string encodePng(const Image& image);
 
 } // namespace celadon::loaders

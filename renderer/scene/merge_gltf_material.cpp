@@ -51,6 +51,9 @@ std::optional<std::size_t> findGltfMaterial(const json& document, const std::str
 /// @return whether there was any
 bool wearWhereNone(json& document, std::size_t material) {
     bool isWorn = false;
+    if (!document.contains("meshes")) {
+        return false;
+    }
     for (json& mesh : document["meshes"]) {
         for (json& primitive : mesh["primitives"]) {
             if (!primitive.contains("material")) {

@@ -22,7 +22,8 @@ struct GltfChanges {
 };
 
 /// @return what had to stay behind, a line each
-/// @throws InputError: `source` is no glTF that Celadon reads; OutputError as writeGltfFile()
+/// @throws InputError: `source` is no glTF that Celadon reads; UsageError: a buffer of the source
+/// would be replaced; OutputError as writeGltfFile()
 std::vector<std::string> rewriteGltf(const std::filesystem::path& source,
                                      const GltfChanges& changes,
                                      const std::filesystem::path& target);

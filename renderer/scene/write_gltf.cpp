@@ -49,8 +49,9 @@ public:
         mDocument["accessors"][place]["max"] = toJson(high);
         attributes["POSITION"] = place;
         attributes["NORMAL"] = attribute<glm::vec3>(mesh.normals, "VEC3");
-        if (!mesh.uvs.empty()) {
-            attributes["TEXCOORD_0"] = attribute<glm::vec2>(mesh.uvs, "VEC2");
+        if (!mesh.uvs.empty() || !mesh.uvs1.empty()) { // a second set needs a first
+            attributes["TEXCOORD_0"] =
+                attribute<glm::vec2>(mesh.uvs.empty() ? mesh.uvs1 : mesh.uvs, "VEC2");
         }
         if (!mesh.uvs1.empty()) {
             attributes["TEXCOORD_1"] = attribute<glm::vec2>(mesh.uvs1, "VEC2");

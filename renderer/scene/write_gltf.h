@@ -16,7 +16,7 @@ namespace celadon {
 /// @param scattering of each of World::materials: a glTF material, with `extras.subedit`; textures
 ///                   of the look that a part has besides join it
 /// @param extras    of the scene: deformers, in meters
-/// @throws OutputError; files that were there before are then untouched, or whole and new
+/// @throws OutputError; files that were there before are then untouched
 void writeGltf(const World& world, const std::vector<nlohmann::json>& scattering,
                const nlohmann::json& extras, const std::filesystem::path& file);
 

@@ -66,7 +66,6 @@ json GltfLooks::opaque(const SurfaceMaterial& look) {
                    {"roughnessFactor", look.roughness}}}};
     if (look.ior) {
         made["extensions"]["KHR_materials_ior"] = {{"ior", *look.ior}};
-        use("KHR_materials_ior");
     }
     return made;
 }

@@ -68,8 +68,6 @@ public:
     Document& operator=(const Document&) = delete;
 
     [[nodiscard]] const MaterialMap& material() const { return *mMaterial; }
-    /// The same, for those who keep materials by pointer: it changes as the document is edited.
-    [[nodiscard]] std::shared_ptr<const MaterialMap> materialPointer() const { return mMaterial; }
     [[nodiscard]] const Surface& surface() const { return *mSurface; }
     [[nodiscard]] std::shared_ptr<const Surface> surfacePointer() const { return mSurface; }
     [[nodiscard]] const WeightMask& selection() const { return mSelection; }
@@ -102,6 +100,8 @@ public:
     /// all documents are numbered in their order. 0: there is none.
     [[nodiscard]] std::uint64_t undoOrder() const;
     [[nodiscard]] std::uint64_t redoOrder() const;
+    /// The same of the latest command that can no longer be undone.
+    [[nodiscard]] std::uint64_t forgottenOrder() const;
     /// What was undone can no longer be redone.
     void dropUndone();
     /// The same number, the same material: that of the latest command in effect which is more than

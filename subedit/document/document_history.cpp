@@ -37,21 +37,48 @@ TileBits Document::Entry::weighted(int tile) const {
     return bits;
 }
 
+namespace {
+
+/// What a command holds of paths and pictures.
+std::size_t payloadBytes(const EditCommand& command) {
+    if (const auto* stroke = std::get_if<StrokeCommand>(&command)) {
+        return stroke->path.size() * sizeof(StrokePoint);
+    }
+    if (const auto* stamp = std::get_if<StampCommand>(&command)) {
+        return stamp->stamp.weights.size();
+    }
+    const auto pathsOf = [](const std::vector<Scribble>& scribbles) {
+        std::size_t points = 0;
+        for (const Scribble& scribble : scribbles) {
+            points += scribble.path.size();
+        }
+        return points * sizeof(StrokePoint);
+    };
+    if (const auto* propagate = std::get_if<PropagateCommand>(&command)) {
+        return pathsOf(propagate->propagation.scribbles);
+    }
+    if (const auto* select = std::get_if<SelectCommand>(&command)) {
+        if (const auto* stroke = std::get_if<SelectStroke>(&select->step)) {
+            return stroke->path.size() * sizeof(StrokePoint);
+        }
+    }
+    return 0;
+}
+
+} // namespace
+
 std::size_t Document::Entry::profileBytes() const {
     std::size_t bytes = 0;
     for (const TileBefore& tile : before) {
-        bytes += sizeof(tile) + tile.values.capacity() * sizeof(float);
+        bytes += sizeof(tile) + tile.values.size() * sizeof(float);
     }
     return bytes;
 }
 
 std::size_t Document::Entry::otherBytes() const {
-    std::size_t bytes = sizeof(*this) + mask.ownBytes();
+    std::size_t bytes = sizeof(*this) + mask.bytesBeyond(selectionBefore) + payloadBytes(command);
     for (const Growth& g : growth) {
-        bytes += g.before.capacity() * sizeof(float) + g.changedTexels.capacity() * 4;
-    }
-    if (const auto* stroke = std::get_if<StrokeCommand>(&command)) {
-        bytes += stroke->path.capacity() * sizeof(StrokePoint);
+        bytes += g.before.size() * sizeof(float) + g.changedTexels.size() * 4;
     }
     return bytes;
 }
@@ -61,10 +88,18 @@ template<typename Change>
 void Document::accountFor(Entry& entry, Change&& change) {
     mProfileBytes -= entry.profileBytes();
     mOtherBytes -= entry.accounted;
-    change();
-    entry.accounted = entry.otherBytes();
-    mProfileBytes += entry.profileBytes();
-    mOtherBytes += entry.accounted;
+    const auto countAgain = [&] {
+        entry.accounted = entry.otherBytes();
+        mProfileBytes += entry.profileBytes();
+        mOtherBytes += entry.accounted;
+    };
+    try {
+        change();
+    } catch (...) { // what is there is counted, whatever it is
+        countAgain();
+        throw;
+    }
+    countAgain();
 }
 
 void Document::dropUndone() {
@@ -123,7 +158,7 @@ void Document::forgetOldest() {
             if ((touched & ~before->kept).any()) {
                 TileBefore more{tile, {}, {}};
                 complete(e, more, before->kept | touched);
-                moreBytes += (more.values.capacity() - before->values.capacity()) * sizeof(float);
+                moreBytes += (more.values.size() - before->values.size()) * sizeof(float);
                 *before = std::move(more);
             }
             open &= ~touched;
@@ -362,6 +397,10 @@ std::uint64_t Document::undoOrder() const {
 
 std::uint64_t Document::redoOrder() const {
     return canRedo() ? mHistory[mDone]->order : 0;
+}
+
+std::uint64_t Document::forgottenOrder() const {
+    return mForgotten > 0 ? mHistory[mForgotten - 1]->order : 0;
 }
 
 std::uint64_t Document::contentId() const {

@@ -166,8 +166,10 @@ void HalfRounding::correct(int channel, float totalBefore) {
     const float scale = 3.0f * totalBefore;
     const float tolerance = (knots.size() <= kFewKnots ? kFewTolerance : kTolerance) * scale;
     const float room = 3.0f * (1.0f / mAlbedoPerTotal - totalBefore); // up to an albedo of 1
-    const Goal goal = std::abs(room) < tolerance ? Goal{room - 0.5f * tolerance, room}
-                                                 : Goal{0.0f, std::numeric_limits<float>::max()};
+    Goal goal; // of what is above 1 already, the energy as it is
+    if (room > -tolerance) {
+        goal = {std::min(0.0f, room - 0.5f * tolerance), room};
+    }
     float best = std::numeric_limits<float>::max();
     Channel kept = knots;
     for (int attempt = 0; attempt < 4; ++attempt) {

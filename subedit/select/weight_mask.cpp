@@ -118,12 +118,18 @@ void WeightMask::compact(const WeightMask& like) {
     }
 }
 
-std::size_t WeightMask::ownBytes() const {
-    std::size_t bytes = mTiles.size() * sizeof(mTiles.front());
-    for (const auto& tile : mTiles) {
-        bytes += tile != nullptr && tile.use_count() == 1 ? sizeof(Tile) : 0;
+std::size_t WeightMask::bytesBeyond(const WeightMask& other) const {
+    std::vector<const Tile*> own;
+    for (std::size_t t = 0; t < mTiles.size(); ++t) {
+        const bool isShared = t < other.mTiles.size() && other.mTiles[t] == mTiles[t];
+        if (mTiles[t] != nullptr && !isShared) {
+            own.push_back(mTiles[t].get());
+        }
     }
-    return bytes;
+    std::sort(own.begin(), own.end()); // full tiles are often one
+    const auto last = std::unique(own.begin(), own.end());
+    return (mTiles.size() + other.mTiles.size()) * sizeof(mTiles.front()) +
+           static_cast<std::size_t>(last - own.begin()) * sizeof(Tile);
 }
 
 bool WeightMask::operator==(const WeightMask& other) const {

@@ -61,8 +61,8 @@ public:
     /// Gives back tiles that are all zero, and shares those that are all full, or as in `like`.
     void compact(const WeightMask& like);
     void compact() { compact(*this); }
-    /// Bytes of tiles that no other mask shares.
-    [[nodiscard]] std::size_t ownBytes() const;
+    /// Bytes that this mask takes besides another, of whose tiles it may share some.
+    [[nodiscard]] std::size_t bytesBeyond(const WeightMask& other) const;
 
     /// Calls visit(texel index, weight) for every weight above zero, tile by tile.
     template<typename Visit>

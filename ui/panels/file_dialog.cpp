@@ -113,7 +113,7 @@ void FileDialog::choose() {
         return;
     }
     mIsOpen = false;
-    mDone(file);
+    std::exchange(mDone, nullptr)(file); // which may open another
 }
 
 void FileDialog::drawPlaces(float scale) {

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 
@@ -190,6 +191,53 @@ TEST(RewriteGltf, ScalesWhatIsSkinnedAsWell) {
                   1e-6 * radius);
     }
     ASSERT_EQ(after.rig->animations.size(), before.rig->animations.size());
+}
+
+/// A triangle of its own buffer file, seen by an orthographic camera.
+nlohmann::json triangle() {
+    return nlohmann::json::parse(R"({
+        "asset": {"version": "2.0"},
+        "buffers": [{"uri": "t.bin", "byteLength": 36}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36,
+                         "extensions": {"EXT_meshopt_compression": {"buffer": 0, "byteLength": 9}}}],
+        "extensionsUsed": ["EXT_meshopt_compression"],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                       "min": [0, 0, 0], "max": [1, 1, 0]}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "cameras": [{"type": "orthographic",
+                     "orthographic": {"xmag": 2, "ymag": 3, "znear": 1, "zfar": 5}}],
+        "nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0, 4]}]})");
+}
+
+TEST(RewriteGltf, ScalesFilesWithoutAndWithSeveralScenes) {
+    const test::TemporaryFolder folder;
+    const std::array<float, 9> corners{0, 0, 0, 1, 0, 0, 0, 1, 0};
+    test::writeText(folder / "t.bin",
+                    {reinterpret_cast<const char*>(corners.data()), sizeof(corners)});
+    const nlohmann::json both = {{"nodes", {0, 1}}};
+    for (const nlohmann::json& scenes : {nlohmann::json(), nlohmann::json::array({both, both})}) {
+        nlohmann::json document = triangle();
+        if (!scenes.is_null()) {
+            document["scenes"] = scenes;
+        }
+        test::writeText(folder / "t.gltf", document.dump());
+        const Scene before = loadScene((folder / "t.gltf").string());
+        static_cast<void>(loaders::rewriteGltf(folder / "t.gltf", {{}, {}, 0.5}, folder / "s.glb"));
+        const Scene after = loadScene((folder / "s.glb").string());
+        ASSERT_EQ(after.cameras.size(), 1u);
+        EXPECT_NEAR(*after.cameras[0].orthographicHeight,
+                    0.5 * *before.cameras[0].orthographicHeight, 1e-9);
+        EXPECT_NEAR(after.cameras[0].eye.z, 2.0, 1e-9);
+        for (std::size_t i = 0; i < 3; ++i) {
+            EXPECT_EQ(after.meshes[0].positions[i], 0.5f * before.meshes[0].positions[i]);
+        }
+        EXPECT_EQ(test::readText(folder / "s.glb").find("meshopt"), std::string::npos);
+    }
+    // The buffer beside "t.gltf" would take the place of the model's own.
+    std::filesystem::rename(folder / "t.gltf", folder / "model.gltf");
+    EXPECT_THROW(
+        static_cast<void>(loaders::rewriteGltf(folder / "model.gltf", {}, folder / "t.gltf")),
+        UsageError);
 }
 
 TEST(WriteGltf, NamesAFolderThatIsMissing) {

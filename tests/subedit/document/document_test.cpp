@@ -241,6 +241,22 @@ TEST(Document, ForgetsTheOldestCommandsAndUndoesTheRestToTheByte) {
     EXPECT_GT(forgotten, 20u);
 }
 
+/// Masks of selections are shared between the history and the selection itself: counted once.
+TEST(Document, SelectionsCountAsHistory) {
+    Document document(test::varyingMaterial(kSize, kSize, 16), flat());
+    std::size_t before = document.historyBytes();
+    constexpr std::size_t kTiles = 9; // of 32 x 32 texels, on a map of 80 x 80
+    for (int i = 0; i < 4; ++i) {
+        const auto x = 10.0f + 10.0f * static_cast<float>(i);
+        document.execute(SelectCommand{SelectStroke{{.radiusMm = 60.0f}, {}, {point(x, 40.0f)}},
+                                       SelectMode::Replace});
+        const std::size_t grown = document.historyBytes() - before;
+        EXPECT_GT(grown, sizeof(WeightMask::Tile));
+        EXPECT_LT(grown, kTiles * sizeof(WeightMask::Tile) + 4096);
+        before = document.historyBytes();
+    }
+}
+
 TEST(Document, LessHistoryIsForgottenAtOnce) {
     Document document(test::varyingMaterial(kSize, kSize, 16), flat());
     for (int i = 0; i < 5; ++i) {
