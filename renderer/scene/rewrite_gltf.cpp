@@ -209,17 +209,24 @@ std::vector<std::string> rewriteGltf(const std::filesystem::path& source,
     GltfDocument document;
     openGltf(source, content, document);
     json root = parseJson(source, splitContainer(source, content).json);
-    checkBuffer(root, source, target);
-    requireScene(root);
     std::vector<std::string> leftBehind;
-    std::string buffer = joinBuffers(root, document);
-    takeImages(root, document, buffer, leftBehind);
-    for (const auto& [index, made] : changes.materials) {
-        mergeGltfMaterial(root, index, made);
-    }
-    putDeformers(root, source, changes.deformers);
-    if (changes.scale != 1.0) {
-        scaleScenes(root, changes.scale);
+    std::string buffer;
+    try {
+        checkBuffer(root, source, target);
+        requireScene(root);
+        buffer = joinBuffers(root, document);
+        takeImages(root, document, buffer, leftBehind);
+        for (const auto& [index, made] : changes.materials) {
+            mergeGltfMaterial(root, index, made);
+        }
+        putDeformers(root, source, changes.deformers);
+        if (changes.scale != 1.0) {
+            scaleScenes(root, changes.scale);
+        }
+    } catch (const json::exception& error) { // in what the loader does not look at
+        throw InputError(quoted(source),
+                         fmt::format("is not laid out as glTF 2.0 is ({})", error.what()),
+                         "export the model again");
     }
     writeGltfFile(std::move(root), buffer, target);
     return leftBehind;
