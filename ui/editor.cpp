@@ -6,12 +6,12 @@
 #include "ui/deform_controls.h"
 #include "ui/file_actions.h"
 #include "ui/file_watch.h"
-#include "ui/journal.h"
 #include "ui/key_actions.h"
 #include "ui/layout.h"
 #include "ui/picture_file.h"
 #include "ui/picture_worker.h"
 #include "ui/preferences.h"
+#include "ui/recovery_run.h"
 #include "ui/script.h"
 #include "ui/thumbnails.h"
 #include "ui/truth_view.h"
@@ -27,7 +27,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace celadon::ui {
@@ -52,8 +51,6 @@ private:
     void pollOpening();
     void pollSaving();
     void worldOpened();
-    void recoverSome();
-    void finishRecovery();
     void offerRecovery();
     void takeKey(KeyChord pressed);
     /// Turntable and motion go on with the clock, as fast as pictures come. @return whether they
@@ -88,13 +85,11 @@ private:
     ViewportTools mTools;
     BackgroundOpen mOpen;
     Journal mJournal;
+    RecoveryRun mRecovery;
     FileActions mFiles;
     LayoutState mLayout;
     LayoutActions mActions;
     FileWatch mWatch;
-    std::optional<Recovery> mRecovery;              ///< to be replayed once its model is open
-    std::optional<Recovery> mRecovering;            ///< being replayed
-    std::size_t mRecovered = 0, mRecoveredWell = 0; ///< its steps so far
     bool mIsPlaced = false;
     std::uint64_t mSeenWorld = 0;
     std::chrono::steady_clock::time_point mPlayedUntil; ///< what turns or plays has come so far
@@ -118,6 +113,7 @@ Editor::Editor(const EditorOptions& options)
       mTools(mSession),
       mOpen(mSession),
       mJournal(stateFolder()),
+      mRecovery(mSession, mJournal),
       mFiles(mSession, mOpen, mPreferences, mScript.isUnattended()),
       mJobs(mWindow.jobsWindow(), [] { Window::wake(); }),
       mThumbnails(mJobs, cacheFolder() / "thumbnails"),
@@ -137,7 +133,7 @@ Editor::Editor(const EditorOptions& options)
 void Editor::keepJournal() {
     mSession.dispatcher().observe([this](const Command& command) {
         // Steps that are recovered stay in the journal that they come from until all are done.
-        if (mPreferences.autosave && !mScript.isUnattended() && !mRecovering) {
+        if (mPreferences.autosave && !mScript.isUnattended() && !mRecovery.isRunning()) {
             if (const auto problem = mJournal.add(command)) {
                 mSession.notify(Notice::Kind::Warning, *problem);
             }
@@ -249,7 +245,7 @@ void Editor::setActions() {
     mActions.togglePlay = [this] { togglePlay(); };
     mActions.toggleTurntable = [this] { mLayout.isTurning = !mLayout.isTurning; };
     mActions.quit = [this] {
-        if (mRecovering) {
+        if (mRecovery.isRunning()) {
             mSession.notify(Notice::Kind::Info, "A recovery is under way, and soon done");
             return;
         }
@@ -282,7 +278,7 @@ void Editor::offerRecovery() {
                            found->commands.size(), found->opened.model),
                {{"Recover",
                  [this, recovery = *found] {
-                     mRecovery = recovery;
+                     mRecovery.await(recovery);
                      mOpen.start(recovery.opened);
                  }},
                 {"Discard", [recovery = *found] { discard(recovery); }},
@@ -357,7 +353,7 @@ double Editor::secondsToFrame() const {
 }
 
 double Editor::secondsToSleep() const {
-    if (mRecovering) {
+    if (mRecovery.isRunning()) {
         return 0.0;
     }
     if (mustDraw()) {
@@ -383,7 +379,7 @@ double Editor::secondsToSleep() const {
 }
 
 void Editor::poll() {
-    if (mOptions.watch && !mOpen.isRunning() && !mRecovering && mSession.hasWorld() &&
+    if (mOptions.watch && !mOpen.isRunning() && !mRecovery.isPending() && mSession.hasWorld() &&
         mWatch.hasChanged(mSession.opened())) {
         if (mSession.isModified()) {
             mSession.notify(Notice::Kind::Warning,
@@ -397,8 +393,13 @@ void Editor::poll() {
     }
     pollOpening();
     pollSaving();
-    if (mRecovering) {
-        recoverSome();
+    if (mRecovery.isRunning()) {
+        const bool isDone = mRecovery.advance(mPreferences.autosave);
+        mLayout.activity = mRecovery.activity();
+        mFramesToDraw = kSettlingFrames;
+        if (isDone) {
+            applyPreferences();
+        }
     }
     if (mJobs.poll()) {
         mFramesToDraw = kSettlingFrames;
@@ -415,7 +416,7 @@ void Editor::poll() {
         mFramesToDraw = kSettlingFrames;
     }
     for (const std::filesystem::path& file : mWindow.takeDroppedFiles()) {
-        if (mRecovering || mRecovery) {
+        if (mRecovery.isPending()) {
             mSession.notify(Notice::Kind::Info, "Drop it again when the recovery is done");
             continue;
         }
@@ -436,8 +437,8 @@ void Editor::pollOpening() {
     mFramesToDraw = kSettlingFrames;
     if (!mOpen.isRunning()) {
         mLayout.activity.clear();
-        if (mRecovery && mSession.worldRevision() == mSeenWorld) {
-            mRecovery.reset(); // it could not be opened, or was given up: its journal stays
+        if (mSession.worldRevision() == mSeenWorld) {
+            mRecovery.sceneMissed();
         }
     }
     if (mSession.hasWorld() && !mIsPlaced && mOptions.place) {
@@ -466,47 +467,7 @@ void Editor::pollSaving() {
 void Editor::worldOpened() {
     mFiles.remember(mSession.opened());
     mJournal.begin(mSession.opened());
-    if (mRecovery && mRecovery->opened == mSession.opened()) {
-        mRecovering = std::exchange(mRecovery, std::nullopt);
-        mRecovered = mRecoveredWell = 0;
-        mSession.setHistoryBytes(std::numeric_limits<std::size_t>::max()); // as much as was undone
-    }
-}
-
-/// A few steps of a recovery, so that the window goes on.
-void Editor::recoverSome() {
-    using Clock = std::chrono::steady_clock;
-    constexpr auto kAtOnce = std::chrono::milliseconds(80);
-    const auto begin = Clock::now();
-    const std::vector<Command>& commands = mRecovering->commands;
-    while (mRecovered < commands.size() && Clock::now() - begin < kAtOnce) {
-        mRecoveredWell += mSession.perform(commands[mRecovered++]) ? 1 : 0;
-    }
-    mFramesToDraw = kSettlingFrames;
-    mLayout.activity = fmt::format("Recovering, step {} of {}", mRecovered, commands.size());
-    if (mRecovered == commands.size()) {
-        finishRecovery();
-    }
-}
-
-void Editor::finishRecovery() {
-    const Recovery recovered = std::move(*std::exchange(mRecovering, std::nullopt));
-    if (mPreferences.autosave) {
-        for (const Command& command : recovered.commands) {
-            if (const auto problem = mJournal.add(command)) {
-                mSession.notify(Notice::Kind::Warning, *problem);
-            }
-        }
-    }
-    std::error_code ignored;
-    std::filesystem::remove(recovered.file, ignored);
-    mSession.forgetMaterialFiles(); // nothing takes a file's name unless asked to
-    applyPreferences();
-    mSession.notify(Notice::Kind::Info,
-                    fmt::format("Recovered {} of {} steps; they are not saved yet", mRecoveredWell,
-                                recovered.commands.size()));
-    mLayout.activity.clear();
-    mFramesToDraw = kSettlingFrames;
+    mRecovery.sceneOpened();
 }
 
 bool Editor::play() {
@@ -550,7 +511,7 @@ void Editor::drawContents() {
     mTruth.draw(mSession, background, rect);
     mTools.drawOverlay(background, rect, mWindow.scale());
     mLayout.isOpening = mOpen.isRunning();
-    mLayout.isRecovering = mRecovering.has_value();
+    mLayout.isRecovering = mRecovery.isRunning();
     drawLayout({mSession, mLayout, mPreferences, mActions, mViewport, mThumbnails, mTruth, mTools,
                 mWindow.scale()});
     mFiles.draw(mWindow.scale());
@@ -610,7 +571,7 @@ void Editor::handleInput() {
                 continue;
             }
             const std::optional<Action> action = mPreferences.keys.find(pressed);
-            if (mRecovering) {
+            if (mRecovery.isRunning()) {
                 continue;
             }
             if (action && (!event.isRepeated || repeats(*action)) && !io.WantTextInput &&
@@ -620,7 +581,7 @@ void Editor::handleInput() {
             }
             continue;
         }
-        if (!mRecovering) {
+        if (!mRecovery.isRunning()) {
             mTools.handle(event, mViewport.rect(), io.WantCaptureMouse && !mTools.isDragging());
         }
     }

@@ -111,6 +111,23 @@ TEST(Document, AStrokeAsItHappensIsTheStrokeAtOnce) {
     }
 }
 
+/// Now and then takes the latest step back, and perhaps does it again.
+/// @param states of the material after each step
+/// @return whether it did
+bool isUndoneOnTheWay(Document& document, std::mt19937& random,
+                      std::vector<std::vector<float>>& states) {
+    if (random() % 4 != 0 || !document.undo()) {
+        return false;
+    }
+    states.pop_back();
+    EXPECT_EQ(document.material().logProfile, states.back()) << "step " << states.size();
+    if (random() % 2 == 0) {
+        EXPECT_TRUE(document.redo());
+        states.push_back(document.material().logProfile);
+    }
+    return true;
+}
+
 /// With no memory for profiles all but what is irreplaceable is computed again.
 TEST(Document, UndoGivesBackTheBytesWhenTheHistoryIsTrimmed) {
     const MaterialMap original = test::varyingMaterial(kSize, kSize, 16);
@@ -120,14 +137,7 @@ TEST(Document, UndoGivesBackTheBytesWhenTheHistoryIsTrimmed) {
         std::uniform_real_distribution<float> place(5.0f, 75.0f);
         std::vector<std::vector<float>> states{original.logProfile};
         for (int i = 0; i < 40; ++i) {
-            // Undone and done again on the way, now and then another way.
-            if (random() % 4 == 0 && document.undo()) {
-                states.pop_back();
-                ASSERT_EQ(document.material().logProfile, states.back()) << "step " << i;
-                if (random() % 2 == 0) {
-                    ASSERT_TRUE(document.redo());
-                    states.push_back(document.material().logProfile);
-                }
+            if (isUndoneOnTheWay(document, random, states)) {
                 continue;
             }
             const EditOperator op = randomOperator(random);
@@ -203,13 +213,7 @@ TEST(Document, ForgetsTheOldestCommandsAndUndoesTheRestToTheByte) {
         std::uniform_real_distribution<float> place(5.0f, 75.0f);
         std::vector<std::vector<float>> states{original.logProfile};
         for (int i = 0; i < 60; ++i) {
-            if (random() % 4 == 0 && document.undo()) {
-                states.pop_back();
-                ASSERT_EQ(document.material().logProfile, states.back()) << "step " << i;
-                if (random() % 2 == 0) {
-                    ASSERT_TRUE(document.redo());
-                    states.push_back(document.material().logProfile);
-                }
+            if (isUndoneOnTheWay(document, random, states)) {
                 continue;
             }
             if (random() % 8 == 0) {
