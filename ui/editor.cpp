@@ -15,11 +15,11 @@
 #include "ui/script.h"
 #include "ui/thumbnails.h"
 #include "ui/truth_view.h"
-#include "ui/turntable.h"
 #include "ui/user_folders.h"
 #include "ui/viewport.h"
 #include "ui/viewport_tools.h"
 #include "ui/window.h"
+#include "ui/window_commands.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -62,8 +62,6 @@ private:
     void advanceScript();
     void setActions();
     void applyPreferences();
-    void addWindowCommands();
-    void addExportCommands();
     void keepJournal();
     void takeScreenshot(const std::filesystem::path& file);
     /// Plays, or stops at the moment that is shown; where nothing changes over time, the turntable.
@@ -126,8 +124,7 @@ Editor::Editor(const EditorOptions& options)
     mViewport.rehearse(!mScript.isUnattended());
     keepJournal();
     setActions();
-    addWindowCommands();
-    addExportCommands();
+    addWindowCommands(mSession, {mLayout, mFiles, mTools, mViewport, mJobs});
 }
 
 void Editor::keepJournal() {
@@ -144,68 +141,6 @@ void Editor::keepJournal() {
             mSession.notify(Notice::Kind::Warning, *problem);
         }
     };
-}
-
-/// What concerns the window only, so that replays can show every panel. Not recorded: how the
-/// window looks changes nothing of the work.
-void Editor::addWindowCommands() {
-    Dispatcher& commands = mSession.dispatcher();
-    const auto add = [&commands](const char* name, const char* summary,
-                                 Dispatcher::Handler handler) {
-        commands.add(name, summary, std::move(handler), false);
-    };
-    add("window.tab", "Shows a tab of the side bar: brush, profile, material, light, deform, view",
-        [this](const Arguments& a) { mLayout.tab = parseTab(a.text("name")); });
-    add("window.show", "Shows or hides panels, help, preferences", [this](const Arguments& a) {
-        mLayout.panelsShown = a.flag("panels", mLayout.panelsShown);
-        mLayout.helpShown = a.flag("help", mLayout.helpShown);
-        mLayout.preferencesShown = a.flag("preferences", mLayout.preferencesShown);
-    });
-    add("window.scroll", "Scrolls the side bar, 0 top to 1 bottom",
-        [this](const Arguments& a) { mLayout.scrollTo = a.numberWithin("to", 0.0, 1.0); });
-    add("window.dialog", "Opens a dialog: open, save, unsaved", [this](const Arguments& a) {
-        const std::string name = a.text("name");
-        if (name == "unsaved") {
-            mFiles.askAboutMaterial([] {});
-        } else {
-            name == "save" ? mFiles.saveAs() : mFiles.openModel();
-        }
-    });
-    add("window.menu", "Opens a menu: file, edit, view, help; none closes them",
-        [this](const Arguments& a) { mLayout.openMenu = a.text("name"); });
-    add("window.drop", "As if a file were dropped on the window: file",
-        [this](const Arguments& a) { mFiles.drop(a.text("file")); });
-    add("window.cursor", "Where the tools take the cursor to be, of the viewport: 0,0 top left",
-        [this](const Arguments& a) { mTools.pretend(a.vector2("place")); });
-}
-
-/// What is written of the pictures that the window shows: recorded, as all that leaves something.
-void Editor::addExportCommands() {
-    Dispatcher& commands = mSession.dispatcher();
-    commands.add("export.picture", "The picture in the viewport, as it is: file",
-                 [this](const Arguments& a) {
-                     const std::string file = a.text("file");
-                     if (mViewport.shownRung() < 0) {
-                         throw UsageError("export.picture", "there is no picture yet");
-                     }
-                     writePicture(file, mViewport.texture());
-                     mSession.notify(Notice::Kind::Info, fmt::format("Saved '{}'", file));
-                 });
-    commands.add("export.turntable", "Pictures of a whole turn: file, frames, size in pixels",
-                 [this](const Arguments& a) {
-                     TurntableSettings settings;
-                     settings.file = a.text("file");
-                     settings.frames = a.integerWithin("frames", 1, 10000);
-                     if (a.has("size")) {
-                         settings.sizePx = glm::ivec2(a.vector2("size"));
-                         if (std::min(settings.sizePx.x, settings.sizePx.y) < 16 ||
-                             std::max(settings.sizePx.x, settings.sizePx.y) > 8192) {
-                             throw UsageError("export.turntable, size",
-                                              "is not within 16 to 8192 pixels");
-                         }
-                     }
-                     startTurntable(mSession, mJobs, settings);
-                 });
 }
 
 void Editor::setActions() {

@@ -192,16 +192,17 @@ await 30 '"settled":true'
 kill_editor
 rm -f "$folder"/state/celadon/*.journal
 
-# Broken files that are dropped, a turntable, an export: by replay.
+# Broken files that are dropped, the picture, a turntable, an export: by replay.
 printf '%s\n' '{"command":"edit.fill"}' \
     "{\"command\":\"file.save\",\"file\":\"$folder/whole.subedit.exr\"}" \
+    "{\"command\":\"export.picture\",\"file\":\"$folder/picture.png\"}" \
     "{\"command\":\"window.drop\",\"file\":\"$folder/broken.obj\"}" \
     "{\"command\":\"export.turntable\",\"file\":\"$folder/turn.png\",\"frames\":3,\"size\":[96,64]}" \
     "{\"command\":\"file.export\",\"file\":\"$folder/exported.gltf\"}" >"$folder/drops.jsonl"
 "$program" edit "$model" --size 500x400 --quality draft --replay "$folder/drops.jsonl" \
-    --screenshot "$folder/drops.png" --exit-after-replay 2>"$folder/stderr" ||
+    --screenshot-at "2:$folder/filled.png" --screenshot "$folder/drops.png" --exit-after-replay 2>"$folder/stderr" ||
     fail "the replay of drops ended with $?: $(cat "$folder/stderr")"
-for file in turn_0001.png turn_0002.png turn_0003.png exported.gltf exported.bin \
+for file in filled.png picture.png turn_0001.png turn_0002.png turn_0003.png exported.gltf exported.bin \
     exported.subedit.exr drops.png; do
     [ -s "$folder/$file" ] || fail "$file is missing"
 done
