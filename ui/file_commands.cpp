@@ -1,6 +1,7 @@
 // Commands about files.
 #include "renderer/scene/gltf_file.h"
 #include "renderer/scene/load_deformers.h"
+#include "renderer/scene/load_scene.h"
 #include "renderer/scene/rewrite_gltf.h"
 #include "renderer/scene/write_gltf.h"
 #include "subedit/errors.h"
@@ -12,7 +13,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 
 namespace celadon::ui {
 
@@ -65,13 +65,6 @@ std::vector<nlohmann::json> exportMaterials(const Session& session,
             session.services().describeMaterial(document->material(), exportedName(file, i)));
     }
     return materials;
-}
-
-bool isGltf(const std::filesystem::path& model) {
-    std::string suffix = model.extension().string();
-    std::ranges::transform(suffix, suffix.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return suffix == ".gltf" || suffix == ".glb";
 }
 
 /// What a glTF that is made of the world alone lacks.

@@ -35,10 +35,16 @@ constexpr std::array<Format, 6> kFormats{{{".gltf", loaders::loadGltf},
                                           {".off", loaders::loadOff},
                                           {".stl", loaders::loadStl}}};
 
-Loader loaderFor(const std::filesystem::path& file) {
+/// In small letters.
+std::string extensionOf(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+Loader loaderFor(const std::filesystem::path& file) {
+    const std::string extension = extensionOf(file);
     std::string known;
     for (const Format& format : kFormats) {
         if (extension == format.extension) {
@@ -55,6 +61,11 @@ Loader loaderFor(const std::filesystem::path& file) {
 }
 
 } // namespace
+
+bool isGltf(const std::filesystem::path& file) {
+    const std::string extension = extensionOf(file);
+    return extension == ".gltf" || extension == ".glb";
+}
 
 Scene loadScene(const std::filesystem::path& file) {
     std::error_code ignored;

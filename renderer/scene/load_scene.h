@@ -14,4 +14,7 @@ namespace celadon {
 /// @throws InputError with file, place and reason; never returns a scene without triangles
 [[nodiscard]] Scene loadScene(const std::filesystem::path& file);
 
+/// By its name, as loadScene() tells formats apart.
+[[nodiscard]] bool isGltf(const std::filesystem::path& file);
+
 } // namespace celadon

@@ -8,7 +8,6 @@
 #include <map>
 #include <string>
 #include <utility>
-#include <vector>
 
 /// The looks of a world's parts as glTF materials, with their textures.
 namespace celadon {

@@ -61,8 +61,7 @@ float change(float weight, float from, float to, float value) {
 } // namespace
 
 HalfRounding::HalfRounding(int segments, float segmentMm)
-    : mSegments(segments),
-      mAlbedoPerTotal(2.0f * std::numbers::pi_v<float> * segmentMm * segmentMm),
+    : mAlbedoPerTotal(2.0f * std::numbers::pi_v<float> * segmentMm * segmentMm),
       mEnergy(segments),
       mRounded(static_cast<std::size_t>(segments + 1) * 3) {
     mChannels.fill(Channel(static_cast<std::size_t>(segments + 1)));

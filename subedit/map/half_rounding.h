@@ -50,7 +50,6 @@ private:
     void correct(int channel, float totalBefore);
     void place(int channel);
 
-    int mSegments;
     float mAlbedoPerTotal;
     TexelEnergy mEnergy;
     std::array<Channel, 3> mChannels;
