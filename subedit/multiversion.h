@@ -16,4 +16,18 @@ namespace celadon::subedit {
 /// code by itself. GCC and Clang alike.
 using Eight = float __attribute__((vector_size(32)));
 
+/// Lanes of an Eight in another order, the indices of which need not be known before.
+#if defined(__clang__)
+#define CELADON_CHOOSE(values, places)                                                             \
+    [&] {                                                                                          \
+        Eight chosen;                                                                              \
+        for (int lane = 0; lane < 8; ++lane) {                                                     \
+            chosen[lane] = (values)[(places)[lane]];                                               \
+        }                                                                                          \
+        return chosen;                                                                             \
+    }()
+#else
+#define CELADON_CHOOSE(values, places) __builtin_shuffle(values, places)
+#endif
+
 } // namespace celadon::subedit

@@ -7,42 +7,50 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace celadon::subedit {
 
 namespace {
 
-/// Calls work(texel index, its ln P, its energies) for the texels of a rectangle.
+std::size_t texelOf(const MaterialMap& map, int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) +
+           static_cast<std::size_t>(x);
+}
+
+/// Calls work(texel index, its energies) for the texels of a rectangle.
 template<typename Work>
 void forEachTexelOf(const MaterialMap& map, const TexelRect& rect, const Work& work) {
-    const auto width = static_cast<std::size_t>(map.width);
     const auto stride = static_cast<std::size_t>(map.knots()) * 3;
     TexelEnergy energy(map.segments);
     for (int y = rect.y; y != rect.bottom(); ++y) {
         for (int x = rect.x; x < rect.right(); ++x) {
-            const std::size_t i = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
-            const float* logProfile = map.logProfile.data() + i * stride;
-            energy.compute(logProfile);
-            work(i, logProfile, energy);
+            const std::size_t i = texelOf(map, x, y);
+            energy.compute(map.logProfile.data() + i * stride);
+            work(i, energy);
         }
     }
 }
 
-/// The same for the whole map, on all cores.
+/// Calls work(rectangle) for all rows, some at a time, on all cores.
+template<typename Work>
+void forEachRows(const MaterialMap& map, const Work& work) {
+    tbb::parallel_for(tbb::blocked_range<int>(0, map.height, 8),
+                      [&](const tbb::blocked_range<int>& rows) {
+                          work(TexelRect{0, rows.begin(), map.width, rows.end() - rows.begin()});
+                      });
+}
+
+/// The same for each texel.
 template<typename Work>
 void forEachTexel(const MaterialMap& map, const Work& work) {
-    tbb::parallel_for(
-        tbb::blocked_range<int>(0, map.height, 8), [&](const tbb::blocked_range<int>& rows) {
-            forEachTexelOf(map, {0, rows.begin(), map.width, rows.end() - rows.begin()}, work);
-        });
+    forEachRows(map, [&](const TexelRect& rows) { forEachTexelOf(map, rows, work); });
 }
 
 std::size_t texelsOf(const MaterialMap& map) {
     return static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height);
 }
 
-/// R_P of a texel in mm for one fraction; never zero.
+/// R_P in mm for one fraction; never zero.
 struct RadiusRule {
     float h, blackTotal, smallest, largest, fraction;
 
@@ -53,10 +61,13 @@ struct RadiusRule {
           largest(map.maxRadiusMm),
           fraction(static_cast<float>(energyFraction)) {}
 
-    [[nodiscard]] float operator()(const float* logProfile, const TexelEnergy& energy) const {
-        return fraction >= 1.0f ? largest
-                                : std::clamp(h * energy.radius(logProfile, fraction, blackTotal),
-                                             smallest, largest);
+    /// In units of h, and not yet within bounds, when the search has finished.
+    void add(RadiusSearch& search, const TexelEnergy& energy, float& radius) const {
+        energy.addRadius(search, fraction, blackTotal, radius);
+    }
+
+    [[nodiscard]] float inMm(float radius) const {
+        return fraction >= 1.0f ? largest : std::clamp(h * radius, smallest, largest);
     }
 };
 
@@ -66,37 +77,29 @@ void updateEffectiveRadii(const MaterialMap& map, const TexelRect& rect, double 
                           std::span<float> radiusMm) {
     CELADON_ASSERT(map.segments >= 1 && map.segments <= kMaxSegments);
     const RadiusRule rule(map, energyFraction);
-    forEachTexelOf(map, rect,
-                   [&](std::size_t i, const float* logProfile, const TexelEnergy& energy) {
-                       radiusMm[i] = rule(logProfile, energy);
-                   });
-}
-
-std::vector<std::vector<float>> effectiveRadiusMaps(const MaterialMap& map,
-                                                    std::span<const double> energyFractions) {
-    CELADON_ASSERT(map.segments >= 1 && map.segments <= kMaxSegments);
-    std::vector<std::vector<float>> radii(energyFractions.size(),
-                                          std::vector<float>(texelsOf(map)));
-    std::vector<RadiusRule> rules;
-    for (const double fraction : energyFractions) {
-        rules.emplace_back(map, fraction);
-    }
-    forEachTexel(map, [&](std::size_t i, const float* logProfile, const TexelEnergy& energy) {
-        for (std::size_t e = 0; e < radii.size(); ++e) {
-            radii[e][i] = rules[e](logProfile, energy);
-        }
+    RadiusSearch search;
+    forEachTexelOf(map, rect, [&](std::size_t i, const TexelEnergy& energy) {
+        rule.add(search, energy, radiusMm[i]);
     });
-    return radii;
+    search.finish();
+    for (int y = rect.y; y != rect.bottom(); ++y) {
+        float* const row = radiusMm.data() + texelOf(map, rect.x, y);
+        std::transform(row, row + rect.width, row, [&](float radius) { return rule.inMm(radius); });
+    }
 }
 
 std::vector<float> effectiveRadiusMap(const MaterialMap& map, double energyFraction) {
-    return std::move(effectiveRadiusMaps(map, {&energyFraction, 1}).front());
+    std::vector<float> radius(texelsOf(map));
+    forEachRows(map, [&](const TexelRect& rows) {
+        updateEffectiveRadii(map, rows, energyFraction, radius);
+    });
+    return radius;
 }
 
 std::vector<float> albedoMap(const MaterialMap& map) {
     std::vector<float> albedo(texelsOf(map) * 3);
     const float h = map.maxRadiusMm / static_cast<float>(map.segments);
-    forEachTexel(map, [&](std::size_t i, const float*, const TexelEnergy& energy) {
+    forEachTexel(map, [&](std::size_t i, const TexelEnergy& energy) {
         for (int channel = 0; channel < 3; ++channel) {
             albedo[i * 3 + static_cast<std::size_t>(channel)] = energy.albedo(channel, h);
         }
@@ -108,7 +111,7 @@ std::vector<float> lastSegmentMap(const MaterialMap& map) {
     std::vector<float> part(texelsOf(map));
     const float blackTotal =
         TexelEnergy::blackTotal(map.maxRadiusMm / static_cast<float>(map.segments));
-    forEachTexel(map, [&](std::size_t i, const float*, const TexelEnergy& energy) {
+    forEachTexel(map, [&](std::size_t i, const TexelEnergy& energy) {
         for (int channel = 0; channel < 3; ++channel) {
             if (energy.total(channel) > blackTotal) {
                 part[i] = std::max(part[i], energy.last(channel) / energy.total(channel));

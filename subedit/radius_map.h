@@ -17,14 +17,10 @@ namespace celadon::subedit {
     return {map.logProfile.data() + map.index(x, y, 0), map.segments, map.maxRadiusMm};
 }
 
-/// Radii in mm that hold the given fractions of each texel's energy, the largest of the channels.
-/// Never zero: a texel that is black in all channels gets r_s / 1000.
-/// @param energyFractions each in (0, 1]; 1 gives r_s
-/// @return                one map per fraction, each [height][width]
-[[nodiscard]] std::vector<std::vector<float>>
-effectiveRadiusMaps(const MaterialMap& map, std::span<const double> energyFractions);
-
-/// As above for one fraction.
+/// Radius in mm that holds the fraction of each texel's energy, the largest of the channels. Never
+/// zero: a texel that is black in all channels gets r_s / 1000.
+/// @param energyFraction in (0, 1]; 1 gives r_s
+/// @return               [height][width]
 [[nodiscard]] std::vector<float> effectiveRadiusMap(const MaterialMap& map,
                                                     double energyFraction = 0.95);
 

@@ -8,7 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
+#include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace celadon::subedit {
@@ -34,85 +35,118 @@ double largestSamplingError(const MeanProfile& profile) {
     return variation + highest;
 }
 
+constexpr int kLeastPhases = 16;
 constexpr int kMostPhases = 256;
-constexpr int kLanes = kMostPhases + 1;
-
-/// Adds the next term P r to the sums of all phases, and gives how far each is from the integral.
-/// @param samples, beyond of the mean profile, `intervals` + 1 values
-/// @param offset  of each phase below `top`: its r is top - offset, >= 0
-CELADON_MULTIVERSION void addTerm(const float* __restrict samples, const float* __restrict beyond,
-                                  int intervals, const float* __restrict offset, int count,
-                                  float top, float step, float* __restrict sum,
-                                  float* __restrict error) {
-    const auto perUnit = static_cast<float>(intervals);
-    const float width = 1.0f / perUnit;
-    for (int i = 0; i < count; ++i) {
-        const float r = top - offset[i];
-        const float position = r * perUnit;
-        const int k = std::min(static_cast<int>(position), intervals - 1);
-        const float t = position - static_cast<float>(k);
-        const float end = samples[k + 1];
-        const float p = samples[k] + (end - samples[k]) * t;
-        // As MeanProfile::at(): the rest of the interval, on which P is linear, and all beyond.
-        const float rest = (1.0f - t) * width;
-        const float integral = beyond[k + 1] + rest * (r * 0.5f * (p + end) +
-                                                       rest * (p * (1.0f / 6) + end * (1.0f / 3)));
-        sum[i] += p * r;
-        error[i] = std::abs(sum[i] * step - integral);
-    }
-}
+constexpr int kLanes = 8;
 
 /// The mean profile in single precision: energies of 1 in all are summed to 1e-6, far below any
-/// epsilon that makes sense.
+/// epsilon that makes sense. Some zeros follow, so that whole vectors can be read anywhere.
 struct FloatProfile {
     std::vector<float> samples;
     std::vector<float> beyond;
+    int intervals;
     explicit FloatProfile(const MeanProfile& profile)
         : samples(profile.samples().begin(), profile.samples().end()),
-          beyond(profile.samplesBeyond().begin(), profile.samplesBeyond().end()) {}
+          beyond(profile.samplesBeyond().begin(), profile.samplesBeyond().end()),
+          intervals(static_cast<int>(samples.size()) - 1) {
+        samples.resize(samples.size() + kLanes);
+        beyond.resize(beyond.size() + kLanes);
+    }
 };
+
+using EightInts = std::int32_t __attribute__((vector_size(32)));
+
+/// Where eq. 14 first fails for eight phases: the row, that is how many terms P r lie above.
+/// @param samples, beyond of a FloatProfile
+/// @param offset  of the phases, rising by less than an interval: r = 1 - row step - offset
+/// @param rows    to look at
+/// @param fails   of the eight, which fail in that row, as -1; undefined where none does
+/// @return        rows if none fails
+CELADON_MULTIVERSION int firstFailure(const float* __restrict samples,
+                                      const float* __restrict beyond, int intervals,
+                                      const float* __restrict offset, double step, float limit,
+                                      int rows, std::int32_t* __restrict fails) {
+    const auto perUnit = static_cast<float>(intervals);
+    const float width = 1.0f / perUnit;
+    const auto stepInFloat = static_cast<float>(step);
+    Eight offsets;
+    std::memcpy(&offsets, offset, sizeof(offsets));
+    Eight sum{};
+    for (int row = 0; row < rows; ++row) {
+        const Eight r = static_cast<float>(1.0 - row * step) - offsets;
+        const EightInts isInside = r >= 0.0f;
+        const Eight position = (isInside ? r : Eight{}) * perUnit;
+        EightInts k = __builtin_convertvector(position, EightInts);
+        k = k < intervals - 1 ? k : EightInts{} + (intervals - 1);
+        // The intervals of eight phases lie side by side: read at once, then put in order.
+        const int first = k[kLanes - 1];
+        Eight starts;
+        Eight ends;
+        Eight beyonds;
+        std::memcpy(&starts, samples + first, sizeof(starts));
+        std::memcpy(&ends, samples + first + 1, sizeof(ends));
+        std::memcpy(&beyonds, beyond + first + 1, sizeof(beyonds));
+        const EightInts place = k - first;
+        const Eight start = CELADON_CHOOSE(starts, place);
+        const Eight end = CELADON_CHOOSE(ends, place);
+        const Eight t = position - __builtin_convertvector(k, Eight);
+        const Eight p = start + (end - start) * t;
+        sum += p * r;
+        // As MeanProfile::at(): the rest of the interval, on which P is linear, and all beyond.
+        const Eight rest = (1.0f - t) * width;
+        const Eight integral =
+            CELADON_CHOOSE(beyonds, place) +
+            rest * (r * 0.5f * (p + end) + rest * (p * (1.0f / 6) + end * (1.0f / 3)));
+        const Eight error = sum * stepInFloat - integral;
+        const EightInts isBad = isInside & ((error >= limit) | (error <= -limit));
+        std::int64_t halves[4];
+        std::memcpy(halves, &isBad, sizeof(halves));
+        if (row > 0 && (halves[0] | halves[1] | halves[2] | halves[3]) != 0) {
+            std::memcpy(fails, &isBad, sizeof(isBad));
+            return row;
+        }
+    }
+    return rows;
+}
 
 /// minimalRadius(), where it must be looked for.
 double searchMinimalRadius(const FloatProfile& profile, double T, double epsilon) {
     // All r' that are a whole number of steps and a phase below 1 share their terms. One row of
     // phases after the other, down from 1: the first r' that fails is the highest of those looked
-    // at. The phase just short of a step is the limit in which the term at r = 1 has just dropped
-    // out.
-    const int phases = std::clamp(static_cast<int>(std::ceil(1024.0 / T)), 16, kMostPhases);
+    // at. The last phase, just short of a step, is the limit in which the term at r = 1 has just
+    // dropped out.
+    const int wanted =
+        std::clamp(static_cast<int>(std::ceil(1024.0 / T)), kLeastPhases, kMostPhases);
+    const int count = (wanted + kLanes - 1) / kLanes * kLanes;
+    const int phases = count - 1;
     const double step = 1.0 / T;
-    const auto limit = static_cast<float>(epsilon);
-    std::array<float, kLanes> offset;
-    std::array<float, kLanes> sum{};
-    std::array<float, kLanes> error;
+    std::array<float, kMostPhases> offset;
     for (int i = 0; i < phases; ++i) {
         offset[static_cast<std::size_t>(i)] = static_cast<float>(step * i / phases);
     }
     offset[static_cast<std::size_t>(phases)] = static_cast<float>(step * (1.0 - 1e-6));
-    int count = phases + 1;
-    for (int m = 0;; ++m) {
-        const double top = 1.0 - m * step;
-        while (count > 0 && top < offset[static_cast<std::size_t>(count - 1)]) {
-            --count;
-        }
-        if (count == 0) {
-            return 0.0;
-        }
-        addTerm(profile.samples.data(), profile.beyond.data(),
-                static_cast<int>(profile.samples.size()) - 1, offset.data(), count,
-                static_cast<float>(top), static_cast<float>(step), sum.data(), error.data());
-        if (m == 0) {
-            continue; // no whole step below 1
-        }
-        const float* const end = error.data() + count;
-        const float* const bad =
-            std::find_if(std::as_const(error).data(), end, [&](float e) { return e >= limit; });
-        if (bad != end) {
-            const auto i = static_cast<std::size_t>(bad - error.data());
-            // The next r' above this one that was looked at is up to a phase away: stay on its safe
-            // side.
-            return i == 0 && m == 1 ? 1.0 : std::min(top - offset[i] + step / phases, 1.0);
+    const int allRows = static_cast<int>(std::floor(T)) + 1;
+    int row = allRows;
+    int phase = 0;
+    for (int i = 0; i < count; i += kLanes) {
+        std::array<std::int32_t, kLanes> fails;
+        const int found =
+            firstFailure(profile.samples.data(), profile.beyond.data(), profile.intervals,
+                         offset.data() + i, step, static_cast<float>(epsilon), row, fails.data());
+        if (found < row) { // of phases in the same row, the first
+            row = found;
+            phase = i + static_cast<int>(std::ranges::find(fails, -1) - fails.begin());
         }
     }
+    if (row == allRows) {
+        return 0.0;
+    }
+    // The next r' above this one that was looked at is up to a phase away: stay on its safe side.
+    return phase == 0 && row == 1
+               ? 1.0
+               : std::min(1.0 - row * step - offset[static_cast<std::size_t>(phase)] +
+                              step / phases,
+                          1.0);
 }
 
 /// minimalRadius() with what does not depend on T computed before.

@@ -1,7 +1,7 @@
 #include "subedit/texel_energy.h"
 
 #include "subedit/fast_exp.h"
-#include "subedit/fast_log.h"
+#include "subedit/moment_series.h"
 #include "subedit/multiversion.h"
 
 #include <algorithm>
@@ -12,25 +12,21 @@ namespace celadon::subedit {
 
 namespace {
 
-/// Moments M_0 and M_1 of log_linear.h for |z| < 0.3, to 1e-6.
-float momentSeries0(float z) {
-    return 1.0f + z * (1.0f / 2 + z * (1.0f / 6 + z * (1.0f / 24 + z / 120)));
-}
-
-float momentSeries1(float z) {
-    return 1.0f / 2 + z * (1.0f / 3 + z * (1.0f / 8 + z * (1.0f / 30 + z / 144)));
-}
-
-/// P at all knots, and energies of all segments in units of h^2 (log_linear.h with t = 1). Both
-/// branches of each moment are computed, so that the loops vectorize.
-/// @param count segments x 3
-/// @param index of the segment, for each of `count`
-CELADON_MULTIVERSION void computeEnergies(const float* __restrict logProfile, int count,
-                                          const float* __restrict index, float* __restrict value,
-                                          float* __restrict energy) {
-    for (int i = 0; i < count + 3; ++i) {
+CELADON_MULTIVERSION void computeValues(const float* __restrict logProfile, int count,
+                                        float* __restrict value) {
+    for (int i = 0; i < count; ++i) {
         value[i] = fastExp(logProfile[i]);
     }
+}
+
+/// Energies of segments in units of h^2 (log_linear.h with t = 1), from ln P and P at the knots,
+/// both also at the knot after the last. Both branches of each moment are computed, so that the
+/// loop vectorizes.
+/// @param index of the segment, for each of `count`
+CELADON_MULTIVERSION void computeEnergies(const float* __restrict logProfile,
+                                          const float* __restrict value,
+                                          const float* __restrict index, int count,
+                                          float* __restrict energy) {
     for (int i = 0; i < count; ++i) {
         const float z = logProfile[i + 3] - logProfile[i];
         const float p0 = value[i];
@@ -79,13 +75,20 @@ TexelEnergy::TexelEnergy(int segments) : mSegments(segments) {
 }
 
 void TexelEnergy::compute(const float* logProfile) {
+    std::copy_n(logProfile, (mSegments + 1) * 3, mLog.data());
+    compute();
+}
+
+void TexelEnergy::compute() {
     const int count = mSegments * 3;
-    computeEnergies(logProfile, count, mIndex.data(), mValue.data(), mEnergy.data());
+    computeValues(mLog.data(), wholeVectors(count + 3), mValue.data());
+    computeEnergies(mLog.data(), mValue.data(), mIndex.data(), wholeVectors(count), mEnergy.data());
     addUp();
 }
 
-void TexelEnergy::computeFirst(const float* logProfile) {
-    computeEnergies(logProfile, 3, mIndex.data(), mValue.data(), mEnergy.data());
+void TexelEnergy::computeFirst() {
+    computeValues(mLog.data(), kLanes, mValue.data());
+    computeEnergies(mLog.data(), mValue.data(), mIndex.data(), kLanes, mEnergy.data());
     addUp();
 }
 
@@ -102,14 +105,16 @@ int TexelEnergy::segmentHolding(int channel, float& remaining) const {
     return k;
 }
 
-float TexelEnergy::channelRadius(const float* logProfile, int channel, float fraction,
-                                 float blackTotal) const {
-    if (mTotal[channel] < blackTotal) {
-        return 0.0f;
+float TexelEnergy::channelRadius(int channel, float fraction, float blackTotal) const {
+    float radius = 0.0f;
+    if (mTotal[channel] >= blackTotal) {
+        float remaining = mTotal[channel] * fraction;
+        const int k = segmentHolding(channel, remaining);
+        RadiusSearch search;
+        addSearch(search, k, channel, remaining, radius);
+        search.finish();
     }
-    float remaining = mTotal[channel] * fraction;
-    const int k = segmentHolding(channel, remaining);
-    return static_cast<float>(k) + invert(logProfile, k, channel, remaining);
+    return radius;
 }
 
 float TexelEnergy::radiusBound(int channel, float fraction, float blackTotal) const {
@@ -120,7 +125,8 @@ float TexelEnergy::radiusBound(int channel, float fraction, float blackTotal) co
     return static_cast<float>(segmentHolding(channel, remaining) + 1);
 }
 
-float TexelEnergy::radius(const float* logProfile, float fraction, float blackTotal) const {
+void TexelEnergy::addRadius(RadiusSearch& search, float fraction, float blackTotal,
+                            float& radius) const {
     // Only channels that reach into the farthest segment can be the largest.
     int farthest = -1;
     std::array<int, 3> segment;
@@ -133,64 +139,19 @@ float TexelEnergy::radius(const float* logProfile, float fraction, float blackTo
             farthest = std::max(farthest, segment[channel]);
         }
     }
-    float largest = 0.0f;
+    radius = 0.0f;
     for (std::size_t channel = 0; channel < 3 && farthest >= 0; ++channel) {
         if (segment[channel] == farthest) {
-            largest = std::max(largest, static_cast<float>(farthest) +
-                                            invert(logProfile, farthest, static_cast<int>(channel),
-                                                   remaining[channel]));
+            addSearch(search, farthest, static_cast<int>(channel), remaining[channel], radius);
         }
     }
-    return largest;
 }
 
-/// Newton inside a bracket, from where the energy would be if its density (k + t) e^(b t) were an
-/// exponential: that of the same logarithmic slope at the middle.
-float TexelEnergy::invert(const float* logProfile, int k, int channel, float energy) const {
+void TexelEnergy::addSearch(RadiusSearch& search, int k, int channel, float energy,
+                            float& radius) const {
     const int i = k * 3 + channel;
-    if (energy >= mEnergy[i]) {
-        return 1.0f;
-    }
-    const float p0 = mValue[i];
-    const float b = logProfile[i + 3] - logProfile[i];
-    const float start = static_cast<float>(k);
-    const float part = energy / mEnergy[i];
-    // From r = 0 the density rises as r does, and the energy as its square.
-    const float slope = b + 1.0f / (start + 0.5f);
-    const float e = fastExp(slope);
-    float t = k == 0                    ? std::sqrt(part)
-              : std::abs(slope) < 1e-2f ? part
-                                        : fastLog(1.0f + part * (e - 1.0f)) / slope;
-    t = std::clamp(t, 1e-3f, 0.999f);
-    float low = 0.0f;
-    float high = 1.0f;
-    for (int iteration = 0; iteration < 12; ++iteration) {
-        const float z = b * t;
-        const float p = p0 * fastExp(z);
-        float m0 = 0.0f;
-        float m1 = 0.0f;
-        if (std::abs(z) < 0.3f) {
-            m0 = p0 * momentSeries0(z);
-            m1 = p0 * momentSeries1(z);
-        } else {
-            m0 = (p - p0) / z;
-            m1 = (p - m0) / z;
-        }
-        const float excess = t * (start * m0 + t * m1) - energy;
-        (excess > 0.0f ? high : low) = t;
-        float next = t - excess / std::max(p * (start + t), 1e-30f);
-        const bool isNewton = next > low && next < high;
-        if (!isNewton) {
-            next = 0.5f * (low + high);
-        }
-        // Each step squares the error: after one this small nothing is left to gain.
-        const bool converged = isNewton && std::abs(next - t) < 1e-3f * (start + next);
-        t = next;
-        if (converged) {
-            break;
-        }
-    }
-    return t;
+    search.add({static_cast<float>(k), mValue[i], mLog[i + 3] - mLog[i], mEnergy[i], energy},
+               radius);
 }
 
 } // namespace celadon::subedit

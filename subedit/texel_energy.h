@@ -1,6 +1,7 @@
 #pragma once
 
 #include "subedit/map/material_map.h"
+#include "subedit/radius_search.h"
 
 #include <array>
 #include <numbers>
@@ -21,8 +22,19 @@ public:
 
     /// @param logProfile (segments + 1) x 3 values of ln P, channel fastest
     void compute(const float* logProfile);
+
+    /// What is computed from, as compute() copied it, to be changed; room for a whole number of
+    /// `kLanes` values. Radii ask for the slopes only: as long as these stay, so do radii.
+    [[nodiscard]] float* logProfile() { return mLog.data(); }
+    /// As compute(), of what logProfile() holds.
+    void compute();
     /// The same bits, where only the first knot is another than it was.
-    void computeFirst(const float* logProfile);
+    void computeFirst();
+
+    static constexpr int kLanes = 8;
+    [[nodiscard]] static constexpr int wholeVectors(int count) {
+        return (count + kLanes - 1) / kLanes * kLanes;
+    }
 
     [[nodiscard]] float total(int channel) const {
         return mTotal[static_cast<std::size_t>(channel)];
@@ -43,15 +55,14 @@ public:
 
     /// Radius in units of h that holds `fraction` of one channel; 0 if its total is below
     /// `blackTotal`.
-    /// @param logProfile that of compute()
-    [[nodiscard]] float channelRadius(const float* logProfile, int channel, float fraction,
-                                      float blackTotal) const;
+    [[nodiscard]] float channelRadius(int channel, float fraction, float blackTotal) const;
 
     /// The end of the segment in which channelRadius() lies: at most a segment above it, quicker.
     [[nodiscard]] float radiusBound(int channel, float fraction, float blackTotal) const;
 
-    /// Largest of the channels' radii in units of h; 0 when all are black.
-    [[nodiscard]] float radius(const float* logProfile, float fraction, float blackTotal) const;
+    /// Largest of the channels' radii in units of h; 0 when all are black. It is in `radius` when
+    /// the search has finished.
+    void addRadius(RadiusSearch& search, float fraction, float blackTotal, float& radius) const;
 
     /// What `blackTotal` is for knots h mm apart.
     [[nodiscard]] static float blackTotal(float h) {
@@ -63,12 +74,17 @@ private:
     /// The segment in which the energy up to it exceeds `remaining`, which becomes what is left
     /// for that segment.
     [[nodiscard]] int segmentHolding(int channel, float& remaining) const;
-    [[nodiscard]] float invert(const float* logProfile, int k, int channel, float energy) const;
+    void addSearch(RadiusSearch& search, int k, int channel, float energy, float& radius) const;
+
+    /// Whole vectors are computed, the last one with a knot beyond it.
+    static constexpr std::size_t kRoom =
+        ((kMaxSegments + 1) * 3 + kLanes - 1) / kLanes * kLanes + kLanes;
 
     int mSegments;
-    std::array<float, (kMaxSegments + 1) * 3> mIndex;
-    std::array<float, (kMaxSegments + 1) * 3> mValue;
-    std::array<float, (kMaxSegments + 1) * 3> mEnergy;
+    std::array<float, kRoom> mIndex{};
+    std::array<float, kRoom> mLog{}; ///< ln P
+    std::array<float, kRoom> mValue{};
+    std::array<float, kRoom> mEnergy{};
     std::array<float, 3> mTotal{};
 };
 

@@ -87,9 +87,9 @@ struct OperatorVisitor {
         setAlbedo(editor.albedo() + weight * op.amount * (tinted - editor.albedo()));
     }
 
-    void operator()(const ScaleRange& op) const {
-        scaleRange({fastExp(weight * fastLog(op.factor.x)), fastExp(weight * fastLog(op.factor.y)),
-                    fastExp(weight * fastLog(op.factor.z))});
+    void operator()(const ScaleRange&) const {
+        const glm::vec3 log = weight * prepared.mLogFactor;
+        scaleRange({fastExp(log.x), fastExp(log.y), fastExp(log.z)});
     }
 
     void operator()(const SetRange& op) const {
@@ -274,6 +274,10 @@ PreparedOperator::PreparedOperator(const EditOperator& op, const ProfileLayout& 
         mFirst = resampleProfile(gradient->from, layout);
         mSecond = resampleProfile(gradient->to, layout);
         mHeldRadiusMm = std::max(heldRadiusMm(gradient->from), heldRadiusMm(gradient->to));
+    } else if (const auto* range = std::get_if<ScaleRange>(&op)) {
+        for (int c = 0; c < 3; ++c) {
+            mLogFactor[c] = fastLog(range->factor[c]);
+        }
     } else if (const auto* shape = std::get_if<SetShape>(&op)) {
         ProfileEditor editor({shape->curve.segments, shape->curve.maxRadiusMm});
         editor.load(shape->curve.logProfile.data());

@@ -58,6 +58,7 @@ private:
     const ProfileSource& mSource;
     std::vector<float> mFirst;  ///< the operator's profile, or curve, at the layout's knots
     std::vector<float> mSecond; ///< the other end of a gradient
+    glm::vec3 mLogFactor{0.0f}; ///< of ScaleRange
     glm::vec3 mFirstAlbedo{0.0f};
     float mHeldRadiusMm = 0.0f;         ///< of the operator's profiles
     glm::vec3 mCurveRadiusMm{0.0f};     ///< of a shape: R_P of its channels

@@ -29,8 +29,9 @@ CELADON_MULTIVERSION void stepFirstKnots(const Lanes& l1, const Lanes& logEnergy
         const bool isSmall = std::abs(z) < 0.5f;
         const float s1 =
             1.0f / 2 +
-            z * (1.0f / 3 + z * (1.0f / 8 + z * (1.0f / 30 + z * (1.0f / 144 + z / 840))));
-        const float s2 = 1.0f / 3 + z * (1.0f / 4 + z * (1.0f / 10 + z * (1.0f / 36 + z / 168)));
+            z * (1.0f / 3 + z * (1.0f / 8 + z * (1.0f / 30 + z * (1.0f / 144 + z * (1.0f / 840)))));
+        const float s2 =
+            1.0f / 3 + z * (1.0f / 4 + z * (1.0f / 10 + z * (1.0f / 36 + z * (1.0f / 168))));
         const float e = fastExp(z);
         const float inverse = 1.0f / (isSmall ? 1.0f : z);
         const float e1 = (e - (e - 1.0f) * inverse) * inverse;
@@ -138,7 +139,7 @@ void resampleChannels(const float* in, int inSegments, float inSpacingMm, const 
     repeat(outSpacingMm / (scale * inSpacingMm), count, step);
     repeat(-2.0f * glm::vec3(fastLog(scale.x), fastLog(scale.y), fastLog(scale.z)), count, shift);
     resample(in, inSegments, step.data(), shift.data(), kPlaces.knot.data(), kPlaces.channel.data(),
-             count, out);
+             TexelEnergy::wholeVectors(count), out);
 }
 
 std::vector<float> resampleProfile(const StoredProfile& profile, const ProfileLayout& layout) {
@@ -169,18 +170,20 @@ float heldRadiusMm(const StoredProfile& profile) {
 }
 
 ProfileEditor::ProfileEditor(const ProfileLayout& layout)
-    : mLayout(layout), mEnergy(layout.segments), mValues(layout.values()), mOther(layout.values()) {
+    : mLayout(layout),
+      mEnergy(layout.segments),
+      mOther(static_cast<std::size_t>(TexelEnergy::wholeVectors(layout.knots() * 3))) {
     CELADON_ASSERT(layout.segments >= 1 && layout.segments <= kMaxSegments &&
                    layout.maxRadiusMm > 0.0f);
 }
 
 void ProfileEditor::load(const float* logProfile) {
-    std::copy_n(logProfile, mLayout.values(), mValues.data());
+    std::copy_n(logProfile, mLayout.values(), values());
     measure();
 }
 
 void ProfileEditor::measure() {
-    mEnergy.compute(mValues.data());
+    mEnergy.compute();
     takeAlbedo();
 }
 
@@ -203,11 +206,11 @@ float ProfileEditor::radiusMm(int channel, float fraction) const {
     }
     // Energies may have been measured before setAlbedo() scaled them: their ratios are the same.
     const float h = mLayout.spacingMm();
-    return h * mEnergy.channelRadius(mValues.data(), channel, fraction, TexelEnergy::blackTotal(h));
+    return h * mEnergy.channelRadius(channel, fraction, TexelEnergy::blackTotal(h));
 }
 
 void ProfileEditor::setAlbedo(int channel, float albedo) {
-    float* values = mValues.data() + channel;
+    float* values = this->values() + channel;
     const int knots = mLayout.knots();
     if (albedo < kBlackAlbedo) {
         for (int k = 0; k < knots; ++k) {
@@ -245,13 +248,13 @@ void ProfileEditor::setAlbedo(const glm::vec3& albedo) {
         const int count = mLayout.knots() * 3;
         PerValue shifts;
         repeat(shift, count, shifts);
-        shiftValues(shifts.data(), count, mValues.data());
+        shiftValues(shifts.data(), TexelEnergy::wholeVectors(count), values());
     }
 }
 
 /// Gives a black channel the brightest other one's shape.
 void ProfileEditor::fillBlack(int channel) {
-    float* values = mValues.data() + channel;
+    float* values = this->values() + channel;
     int brightest = 0;
     for (int c = 1; c < 3; ++c) {
         brightest = mAlbedo[c] > mAlbedo[brightest] ? c : brightest;
@@ -260,9 +263,9 @@ void ProfileEditor::fillBlack(int channel) {
     for (int k = 0; k < mLayout.knots(); ++k) {
         values[k * 3] = isAllBlack ? -kDefaultLengths * static_cast<float>(k) /
                                          static_cast<float>(mLayout.segments)
-                                   : mValues[static_cast<std::size_t>(k * 3 + brightest)];
+                                   : this->values()[k * 3 + brightest];
     }
-    mEnergy.compute(mValues.data());
+    mEnergy.compute();
     mAlbedo[channel] = mEnergy.albedo(channel, mLayout.spacingMm());
 }
 
@@ -275,9 +278,9 @@ void ProfileEditor::scaleRange(const glm::vec3& scale) {
     if (used == glm::vec3(1.0f)) {
         return;
     }
-    resampleChannels(mValues.data(), mLayout.segments, mLayout.spacingMm(), used, mOther.data(),
+    resampleChannels(values(), mLayout.segments, mLayout.spacingMm(), used, mOther.data(),
                      mLayout.segments, mLayout.spacingMm());
-    mValues.swap(mOther);
+    std::copy(mOther.begin(), mOther.end(), values());
     measure();
     fitFirstKnots(albedo);
     glm::vec3 restored = albedo;
@@ -295,8 +298,8 @@ void ProfileEditor::fitFirstKnots(const glm::vec3& albedo) {
     glm::bvec3 isFitted(false);
     for (int c = 0; c < 3; ++c) {
         const auto lane = static_cast<std::size_t>(c);
-        l0[lane] = mValues[lane];
-        l1[lane] = mValues[3 + lane];
+        l0[lane] = values()[c];
+        l1[lane] = values()[3 + c];
         const float first = mEnergy.first(c);
         const float rest = mEnergy.total(c) - first;
         const float wanted = albedo[c] / (2.0f * std::numbers::pi_v<float> * h * h) - rest;
@@ -315,10 +318,10 @@ void ProfileEditor::fitFirstKnots(const glm::vec3& albedo) {
     solveFirstKnots(l0, l1, logEnergy);
     for (int c = 0; c < 3; ++c) {
         if (isFitted[c]) {
-            mValues[static_cast<std::size_t>(c)] = l0[static_cast<std::size_t>(c)];
+            values()[c] = l0[static_cast<std::size_t>(c)];
         }
     }
-    mEnergy.computeFirst(mValues.data());
+    mEnergy.computeFirst();
     takeAlbedo();
 }
 

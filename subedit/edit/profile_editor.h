@@ -33,7 +33,7 @@ inline constexpr float kHeldEnergy = 0.999f;
 
 /// ln P at knots that lie `outSpacingMm` apart, of a profile whose channels are scaled in range by
 /// s: P(r / s) / s^2, linear in ln P between the knots given and on beyond the last of them.
-/// @param in, out knots x 3; not the same memory
+/// @param in, out knots x 3, out with room for TexelEnergy::wholeVectors; not the same memory
 void resampleChannels(const float* in, int inSegments, float inSpacingMm, const glm::vec3& scale,
                       float* out, int outSegments, float outSpacingMm);
 
@@ -50,8 +50,8 @@ public:
 
     /// Starts on a texel. @param logProfile knots x 3; copied
     void load(const float* logProfile);
-    [[nodiscard]] const float* result() const { return mValues.data(); }
-    [[nodiscard]] float* values() { return mValues.data(); }
+    [[nodiscard]] const float* result() { return mEnergy.logProfile(); }
+    [[nodiscard]] float* values() { return mEnergy.logProfile(); }
 
     /// Of the profile as load() found it, or as the last step left it.
     [[nodiscard]] const glm::vec3& albedo() const { return mAlbedo; }
@@ -83,8 +83,7 @@ private:
     ProfileLayout mLayout;
     TexelEnergy mEnergy;
     glm::vec3 mAlbedo{0.0f};
-    std::vector<float> mValues;
-    std::vector<float> mOther;
+    std::vector<float> mOther; ///< working memory
 };
 
 } // namespace celadon::subedit

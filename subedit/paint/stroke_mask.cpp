@@ -168,33 +168,35 @@ void StrokeMask::addDab(const Dab& dab) {
     }
     // The flood may step one texel out of the ball, so that a ball of few texels stays connected.
     const float reach = radius + mSurface.texelSizeMm();
-    mFront.assign(1, *seed);
+    const auto look = [&](Texel texel) -> Reached {
+        return {texel, glm::distance(mSurface.positionMm(texel), dab.centerMm),
+                glm::dot(mSurface.normal(texel), dab.normal)};
+    };
+    mFront.assign(1, look(*seed));
     visit(*seed);
     for (std::size_t i = 0; i < mFront.size(); ++i) {
-        const Texel texel = mFront[i];
-        const float distance = glm::distance(mSurface.positionMm(texel), dab.centerMm);
-        const float cosine = glm::dot(mSurface.normal(texel), dab.normal);
+        const Reached at = mFront[i];
         const float amount =
-            dab.flow * falloff(distance / radius, mBrush.hardness) * facingWeight(cosine);
+            dab.flow * falloff(at.distance / radius, mBrush.hardness) * facingWeight(at.cosine);
         if (amount > 0.0f) {
-            Tile& tile = tileOf(texel);
-            float& weight = tile.weight[texel % kTileTexels];
+            Tile& tile = tileOf(at.texel);
+            float& weight = tile.weight[at.texel % kTileTexels];
             if (weight < mBrush.opacity) {
                 weight = std::min(weight + amount * (mBrush.opacity - weight), mBrush.opacity);
-                std::uint32_t& changed = tile.changed[texel % kTileTexels];
+                std::uint32_t& changed = tile.changed[at.texel % kTileTexels];
                 if (changed != mChangeRound) {
                     changed = mChangeRound;
-                    mChanged.push_back(texel);
+                    mChanged.push_back(at.texel);
                 }
             }
         }
-        mSurface.forEachNeighbor(texel, [&](Texel neighbor) {
+        mSurface.forEachNeighbor(at.texel, [&](Texel neighbor) {
             if (!visit(neighbor)) {
                 return; // or found too far: once is enough
             }
-            if (glm::dot(mSurface.normal(neighbor), dab.normal) > 0.0f &&
-                glm::distance(mSurface.positionMm(neighbor), dab.centerMm) <= reach) {
-                mFront.push_back(neighbor);
+            const Reached next = look(neighbor);
+            if (next.cosine > 0.0f && next.distance <= reach) {
+                mFront.push_back(next);
             }
         });
     }

@@ -63,7 +63,13 @@ private:
     std::uint32_t mChangeRound = 1;
     std::vector<std::uint64_t> mVisited; ///< a bit for each texel; all 0 between dabs
     std::vector<Texel> mVisitedWords;    ///< those that are not 0
-    std::vector<Texel> mFront;
+    /// A texel of a dab's flood, and where it lies from the dab.
+    struct Reached {
+        Texel texel;
+        float distance; ///< from the center, mm
+        float cosine;   ///< of both normals
+    };
+    std::vector<Reached> mFront;
 
     std::optional<StrokePoint> mLast;
     float mUntilNextMm = 0.0f; ///< along the path from mLast to the next dab

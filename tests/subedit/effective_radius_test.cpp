@@ -103,13 +103,14 @@ TEST(TexelEnergy, OfAnotherFirstKnotIsThatComputedAnew) {
         changed.compute(profile);
         profile[0] += 0.7f;
         profile[2] -= 0.2f;
-        changed.computeFirst(profile);
+        std::copy_n(profile, 3, changed.logProfile());
+        changed.computeFirst();
         anew.compute(profile);
         for (int c = 0; c < 3; ++c) {
             EXPECT_EQ(changed.total(c), anew.total(c));
             for (const float fraction : {0.01f, 0.5f, 0.95f, 0.999f}) {
-                const float radius = anew.channelRadius(profile, c, fraction, 0.0f);
-                EXPECT_EQ(changed.channelRadius(profile, c, fraction, 0.0f), radius);
+                const float radius = anew.channelRadius(c, fraction, 0.0f);
+                EXPECT_EQ(changed.channelRadius(c, fraction, 0.0f), radius);
                 const float bound = anew.radiusBound(c, fraction, 0.0f);
                 EXPECT_GE(bound, radius);
                 EXPECT_LE(bound, radius + 1.0f);
@@ -121,7 +122,10 @@ TEST(TexelEnergy, OfAnotherFirstKnotIsThatComputedAnew) {
 TEST(RadiusMap, AgreesWithTheDoublePrecisionRadii) {
     const MaterialMap map = test::varyingMaterial(13, 7, 24);
     const std::vector<double> fractions = {0.95, 0.99, 1.0};
-    const auto radii = effectiveRadiusMaps(map, fractions);
+    std::vector<std::vector<float>> radii;
+    for (const double fraction : fractions) {
+        radii.push_back(effectiveRadiusMap(map, fraction));
+    }
     const std::vector<float> albedo = albedoMap(map);
     for (int y = 0; y < map.height; ++y) {
         for (int x = 0; x < map.width; ++x) {
