@@ -129,12 +129,13 @@ nlohmann::json toJson(glm::dvec3 v) {
     return nlohmann::json::array({v.x, v.y, v.z});
 }
 
-void Dispatcher::add(const std::string& name, const std::string& summary, Handler handler,
-                     bool isRecorded) {
-    const bool added =
-        mEntries.emplace(name, Entry{summary, std::move(handler), isRecorded}).second;
-    CELADON_ASSERT(added);
-    static_cast<void>(added);
+Dispatcher::Entry& Dispatcher::add(const std::string& name, const std::string& summary,
+                                   Handler handler, bool isRecorded) {
+    const auto [place, isNew] =
+        mEntries.emplace(name, Entry{summary, std::move(handler), isRecorded});
+    CELADON_ASSERT(isNew);
+    static_cast<void>(isNew);
+    return place->second;
 }
 
 void Dispatcher::execute(const Command& command) {

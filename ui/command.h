@@ -64,11 +64,12 @@ public:
         std::string summary; ///< for help and tooltips
         Handler handler;
         bool isRecorded = true; ///< false: what concerns the window only, and queries
+        bool isLong = false;    ///< may take longer than a frame
     };
 
     /// @param name not registered before
-    void add(const std::string& name, const std::string& summary, Handler handler,
-             bool isRecorded = true);
+    Entry& add(const std::string& name, const std::string& summary, Handler handler,
+               bool isRecorded = true);
     /// @throws UsageError for an unknown command, one with an argument of the wrong type; whatever
     ///         the handler throws. Observers hear of commands that succeeded.
     void execute(const Command& command);
@@ -77,6 +78,10 @@ public:
     void observe(std::function<void(const Command&)> observer);
 
     [[nodiscard]] bool knows(const std::string& name) const { return mEntries.contains(name); }
+    [[nodiscard]] bool isLong(const std::string& name) const {
+        const auto found = mEntries.find(name);
+        return found != mEntries.end() && found->second.isLong;
+    }
     [[nodiscard]] const std::map<std::string, Entry>& entries() const { return mEntries; }
 
 private:

@@ -8,6 +8,7 @@
 #include "ui/file_watch.h"
 #include "ui/key_actions.h"
 #include "ui/layout.h"
+#include "ui/panels/long_edit.h"
 #include "ui/picture_file.h"
 #include "ui/picture_worker.h"
 #include "ui/preferences.h"
@@ -58,6 +59,8 @@ private:
     bool play();
     void drawFrame();
     void drawContents();
+    /// While an edit lasts: the window goes on. @throws GivenUp
+    void showProgress(const std::string& title, float done);
     void handleInput();
     void advanceScript();
     void setActions();
@@ -93,6 +96,8 @@ private:
     std::chrono::steady_clock::time_point mPlayedUntil; ///< what turns or plays has come so far
     bool mShouldClose = false;
     int mFramesToDraw = kSettlingFrames;
+    bool mIsDrawing = false; ///< within a frame
+    LongEdit mLongEdit;
     std::chrono::steady_clock::time_point mNextFrame;
     BackgroundJobs mJobs; ///< after all that its results touch
     Thumbnails mThumbnails;
@@ -122,6 +127,11 @@ Editor::Editor(const EditorOptions& options)
         }
     }
     mViewport.rehearse(!mScript.isUnattended());
+    if (!mScript.isUnattended()) {
+        mSession.onProgress = [this](const std::string& title, float done) {
+            showProgress(title, done);
+        };
+    }
     keepJournal();
     setActions();
     addWindowCommands(mSession, {mLayout, mFiles, mTools, mViewport, mJobs});
@@ -245,6 +255,11 @@ void Editor::step() {
         --mFramesToDraw;
         drawFrame();
     }
+    mSession.performWaiting();
+    if (mLongEdit.isShown()) {
+        mFramesToDraw = kSettlingFrames;
+    }
+    mLongEdit.finish();
     bool mustRedraw = mViewport.update(mSession);
     if (play()) { // the next picture is begun at once
         mustRedraw |= mViewport.update(mSession);
@@ -450,10 +465,25 @@ void Editor::drawContents() {
     drawLayout({mSession, mLayout, mPreferences, mActions, mViewport, mThumbnails, mTruth, mTools,
                 mWindow.scale()});
     mFiles.draw(mWindow.scale());
+    mLongEdit.draw(mWindow.scale());
+}
+
+void Editor::showProgress(const std::string& title, float done) {
+    if (mIsDrawing || !mLongEdit.tell(title, done)) {
+        return; // of what ends within a frame, a stroke, nothing can be shown
+    }
+    mWindow.waitEvents(0.0);
+    if (const glm::ivec2 size = mWindow.sizePx(); size.x > 0 && size.y > 0) {
+        drawFrame();
+    }
+    if (mLongEdit.isGivenUp()) {
+        throw GivenUp(title);
+    }
 }
 
 void Editor::drawFrame() {
     const auto begin = std::chrono::steady_clock::now();
+    mIsDrawing = true;
     mWindow.beginFrame(); // throws where the context is lost: the journal keeps what was done
     const ViewportRect rect = viewportRect(mWindow.sizePx(), mLayout, mWindow.scale());
     mViewport.setRect(rect);
@@ -462,6 +492,7 @@ void Editor::drawFrame() {
     drawContents();
     mWindow.endFrame();
     mWindow.present();
+    mIsDrawing = false;
     if (mWindow.context().isSoftware()) {
         const auto end = std::chrono::steady_clock::now();
         // Under a stroke or a drag the picture comes first; who types wants to see it at once.
@@ -499,6 +530,9 @@ void Editor::handleInput() {
     const ImGuiIO& io = ImGui::GetIO();
     mTools.setLightsFirst(mLayout.panelsShown && mLayout.tab == Tab::Light);
     for (const InputEvent& event : mWindow.takeInput()) {
+        if (mLongEdit.isShown() && event.kind != InputEvent::Kind::Release) {
+            continue;
+        }
         if (event.kind == InputEvent::Kind::Key) {
             const KeyChord pressed{event.button, event.modifiers};
             if (mLayout.keyWantedFor) {

@@ -71,9 +71,16 @@ subedit::SelectionStep selectionStep(const Arguments& a) {
 
 } // namespace
 
+subedit::EditProgress Session::progressOf(const subedit::EditCommand& edit) const {
+    if (!onProgress) {
+        return {};
+    }
+    return [this, title = subedit::commandTitle(edit)](float done) { onProgress(title, done); };
+}
+
 void Session::edit(const subedit::EditCommand& command) {
     subedit::Document& target = documentOf(*this, activeMaterial);
-    const subedit::EditReport report = target.execute(command);
+    const subedit::EditReport report = target.execute(command, progressOf(command));
     dropUndone(activeMaterial);
     mDispatcher.announce(editCommand(activeMaterial, command));
     tell(report, std::holds_alternative<subedit::SelectCommand>(command));
@@ -145,7 +152,8 @@ void Session::endStroke() {
             subedit::SelectStroke{mStroke.brush, mStroke.mirror, mStroke.path},
             mStrokeInverted ? subedit::SelectMode::Subtract : adding};
     }
-    const subedit::EditReport report = mStrokeIsLive ? target.endStroke() : target.execute(edit);
+    const subedit::EditReport report =
+        mStrokeIsLive ? target.endStroke() : target.execute(edit, progressOf(edit));
     dropUndone(material);
     tell(report, mStrokeSelects);
     mDispatcher.announce(editCommand(material, edit));
@@ -171,7 +179,7 @@ void addPaintCommands(Session& session) {
                          subedit::parseCommand("paint.edit", a.value("edit").dump());
                      subedit::Document& document = documentOf(session, material);
                      session.activeMaterial = material; // as by the hand that did it
-                     document.execute(edit);
+                     document.execute(edit, session.progressOf(edit));
                      session.dropUndone(material);
                      session.touchMaterial();
                  });
@@ -198,28 +206,36 @@ void addPaintCommands(Session& session) {
                          a.integerWithin("material", 0, std::max(0, session.materialCount() - 1));
                  });
     // These depend on what the hand holds: they are recorded as the edit that they come to.
-    commands.add(
-        "edit.fill", "Applies the operator to everything that is selected",
-        [&session](const Arguments& a) {
-            session.edit(
-                subedit::ApplyCommand{makeOperator(session.paint, a.flag("inverted", false))});
-        },
-        false);
-    commands.add(
-        "select.change", "all, none, invert; grow, shrink, feather by mm along the surface",
-        [&session](const Arguments& a) { session.edit(subedit::SelectCommand{selectionStep(a)}); },
-        false);
-    commands.add(
-        "select.similar", "Texels whose profile is like that at a point: position and normal",
-        [&session](const Arguments& a) {
-            subedit::SelectSimilar similar;
-            similar.point.positionMm = glm::vec3(a.vector3("position"));
-            similar.point.normal = glm::vec3(a.vector3("normal"));
-            similar.tolerance = static_cast<float>(a.numberWithin("tolerance", 1e-3, 1.0));
-            session.edit(
-                subedit::SelectCommand{similar, parseSelectMode(a.text("mode", "replace"))});
-        },
-        false);
+    commands
+        .add(
+            "edit.fill", "Applies the operator to everything that is selected",
+            [&session](const Arguments& a) {
+                session.edit(
+                    subedit::ApplyCommand{makeOperator(session.paint, a.flag("inverted", false))});
+            },
+            false)
+        .isLong = true;
+    commands
+        .add(
+            "select.change", "all, none, invert; grow, shrink, feather by mm along the surface",
+            [&session](const Arguments& a) {
+                session.edit(subedit::SelectCommand{selectionStep(a)});
+            },
+            false)
+        .isLong = true;
+    commands
+        .add(
+            "select.similar", "Texels whose profile is like that at a point: position and normal",
+            [&session](const Arguments& a) {
+                subedit::SelectSimilar similar;
+                similar.point.positionMm = glm::vec3(a.vector3("position"));
+                similar.point.normal = glm::vec3(a.vector3("normal"));
+                similar.tolerance = static_cast<float>(a.numberWithin("tolerance", 1e-3, 1.0));
+                session.edit(
+                    subedit::SelectCommand{similar, parseSelectMode(a.text("mode", "replace"))});
+            },
+            false)
+        .isLong = true;
     commands.add(
         "clone.source", "Where clone and pattern strokes take from: position, normal",
         [&session](const Arguments& a) {

@@ -24,13 +24,29 @@ Session::Session(SessionServices services) : mServices(std::move(services)) {
 }
 
 bool Session::perform(const Command& command) {
+    if (onProgress && (mDispatcher.isLong(command.name) || !mWaiting.empty())) {
+        mWaiting.push_back(command); // or comes after one that waits
+        return true;
+    }
+    return performNow(command);
+}
+
+void Session::performWaiting() {
+    for (const Command& command : std::exchange(mWaiting, {})) {
+        performNow(command);
+    }
+}
+
+bool Session::performNow(const Command& command) {
     try {
         mDispatcher.execute(command);
         return true;
+    } catch (const GivenUp& givenUp) {
+        notify(Notice::Kind::Info, givenUp.what());
     } catch (const Error& error) {
         notify(Notice::Kind::Error, error.what());
-        return false;
     }
+    return false;
 }
 
 void Session::notify(Notice::Kind kind, const std::string& text) {

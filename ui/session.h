@@ -4,6 +4,7 @@
 #include "renderer/scene/motion.h"
 #include "renderer/scene/world.h"
 #include "renderer/shading/view_mode_pass.h"
+#include "subedit/errors.h"
 #include "ui/command.h"
 #include "ui/light_rig.h"
 #include "ui/motion_history.h"
@@ -45,6 +46,12 @@ struct SessionServices {
     bool isPaintable = true;
 };
 
+/// The user did not wait for the end of an edit.
+struct GivenUp : Error {
+    explicit GivenUp(const std::string& edit)
+        : Error(edit, "was given up, and nothing has changed", {}, ExitCode::Failed) {}
+};
+
 /// A message to the user that can be dismissed.
 struct Notice {
     enum class Kind { Info, Warning, Error };
@@ -66,9 +73,16 @@ public:
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    /// Executes; what goes wrong becomes a notice. For widgets and keys.
-    /// @return whether it was done
+    /// Executes; what goes wrong becomes a notice. For widgets and keys, in the middle of a frame:
+    /// with somebody to tell, commands that may take long wait for its end (performWaiting()).
+    /// @return whether it was done, or waits
     bool perform(const Command& command);
+    void performWaiting();
+    /// Called now and then while an edit lasts, with its title and how much is done, 0 to 1 or
+    /// below 0 where nobody knows. It must not change the session; what it throws ends the edit and
+    /// leaves the material as it was. Empty: nobody asks.
+    std::function<void(const std::string& title, float done)> onProgress;
+    [[nodiscard]] subedit::EditProgress progressOf(const subedit::EditCommand& edit) const;
     /// The same, throwing. For replays and tests. @throws celadon::Error
     void execute(const Command& command) { mDispatcher.execute(command); }
     [[nodiscard]] Dispatcher& dispatcher() { return mDispatcher; }
@@ -191,6 +205,7 @@ private:
     void followAnimation();
     /// What was chosen stays so where the list has it still.
     void keepChoice(const DeformerStack& before);
+    bool performNow(const Command& command);
     /// Of all documents, in effect.
     [[nodiscard]] std::size_t editCount() const;
     /// Whose edit is the latest, or was taken back last; -1: none.
@@ -217,8 +232,9 @@ private:
     int mStrokeMaterial = -1;                  ///< of the open stroke
     subedit::StrokeCommand mStroke;
     bool mStrokeInverted = false;
-    bool mStrokeSelects = false; ///< its paint is selection
-    bool mStrokeIsLive = false;  ///< the material follows; else all is done at the end
+    bool mStrokeSelects = false;   ///< its paint is selection
+    bool mStrokeIsLive = false;    ///< the material follows; else all is done at the end
+    std::vector<Command> mWaiting; ///< for the end of the frame
     std::uint64_t mPictureRevision = 1;
     std::uint64_t mWorldRevision = 0;
 };

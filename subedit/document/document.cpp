@@ -120,30 +120,38 @@ DocumentChanges Document::takeChanges() {
     return changes;
 }
 
-EditReport Document::execute(const EditCommand& command) {
+EditReport Document::execute(const EditCommand& command, const EditProgress& progress) {
     CELADON_ASSERT(!isStrokeOpen());
     auto entry = std::make_unique<Entry>();
     entry->command = command;
-    if (const auto* step = std::get_if<SelectCommand>(&command)) {
+    doTelling(progress, [&] { entry->mask = reached(command); });
+    if (entry->isSelection()) {
         entry->selectionBefore = mSelection;
-        entry->mask = select(*mMaterial, *mSurface, mSelection, step->step, step->mode);
         setSelection(entry->mask);
     } else {
-        if (const auto* stroke = std::get_if<StrokeCommand>(&command)) {
-            entry->mask = strokeMask(*stroke);
-        } else if (const auto* spread = std::get_if<PropagateCommand>(&command)) {
-            entry->mask = selected(propagate(*mMaterial, *mSurface, spread->propagation));
-        } else if (const auto* picture = std::get_if<StampCommand>(&command)) {
-            entry->mask = selected(stampMask(*mSurface, picture->stamp));
-        } else {
-            entry->mask = mSelection;
-        }
         entry->mask.compact(mSelection);
-        applyMasked(*entry);
+        applyMasked(*entry, progress);
     }
     const EditReport report = entry->report;
     commit(std::move(entry));
     return report;
+}
+
+/// What a command reaches, and how much; of a selection, the one that it leads to.
+WeightMask Document::reached(const EditCommand& command) const {
+    if (const auto* step = std::get_if<SelectCommand>(&command)) {
+        return select(*mMaterial, *mSurface, mSelection, step->step, step->mode);
+    }
+    if (const auto* stroke = std::get_if<StrokeCommand>(&command)) {
+        return strokeMask(*stroke);
+    }
+    if (const auto* spread = std::get_if<PropagateCommand>(&command)) {
+        return selected(propagate(*mMaterial, *mSurface, spread->propagation));
+    }
+    if (const auto* picture = std::get_if<StampCommand>(&command)) {
+        return selected(stampMask(*mSurface, picture->stamp));
+    }
+    return mSelection;
 }
 
 void Document::setSelection(const WeightMask& selection) {
@@ -189,21 +197,34 @@ WeightMask Document::selected(const WeightMask& mask) const {
 }
 
 /// The entry's command and mask are set; changes the map and fills in what undoing needs.
-void Document::applyMasked(Entry& entry) {
+void Document::applyMasked(Entry& entry, const EditProgress& progress) {
     const EditOperator& op = *operatorOf(entry.command);
-    for (;;) {
-        saveTiles(entry);
-        const EntrySource source(*mMaterial, entry, !isLocal(op));
-        const PreparedOperator prepared(op, layoutOf(*mMaterial), mLargestRadiusMm, *mSurface,
-                                        source);
-        entry.report = {};
-        const float neededMm = evaluateTiles(prepared, entry);
-        const auto grown = grownLayout(layoutOf(*mMaterial), neededMm, mLargestRadiusMm);
-        if (!grown) {
-            break;
+    bool isSaved = false;
+    try {
+        for (;;) {
+            doTelling(progress, [&] { saveTiles(entry); });
+            isSaved = true;
+            const EntrySource source(*mMaterial, entry, !isLocal(op));
+            std::optional<PreparedOperator> prepared;
+            doTelling(progress, [&] {
+                prepared.emplace(op, layoutOf(*mMaterial), mLargestRadiusMm, *mSurface, source);
+            });
+            entry.report = {};
+            const float neededMm = evaluateTiles(*prepared, entry, progress);
+            const auto grown = grownLayout(layoutOf(*mMaterial), neededMm, mLargestRadiusMm);
+            if (!grown) {
+                break;
+            }
+            restoreTiles(entry);
+            isSaved = false;
+            grow(*grown, entry);
         }
-        restoreTiles(entry);
-        grow(*grown, entry);
+    } catch (...) {
+        if (isSaved) {
+            restoreTiles(entry);
+        }
+        undoGrowths(entry);
+        throw;
     }
     if (!entry.growth.empty()) {
         entry.report.grownRadiusMm = mMaterial->maxRadiusMm;
@@ -235,12 +256,13 @@ void Document::saveTiles(Entry& entry) {
 }
 
 /// @return the r_s that the result needs
-float Document::evaluateTiles(const PreparedOperator& prepared, Entry& entry) {
+float Document::evaluateTiles(const PreparedOperator& prepared, Entry& entry,
+                              const EditProgress& progress) {
     std::mutex mutex;
     float neededMm = 0.0f;
     tbb::enumerable_thread_specific<PreparedOperator::Worker> workers(
         [&] { return PreparedOperator::Worker(prepared); });
-    tbb::parallel_for(std::size_t{0}, entry.before.size(), [&](std::size_t i) {
+    const auto evaluate = [&](std::size_t i) {
         PreparedOperator::Worker& worker = workers.local();
         EditReport report;
         float tileNeededMm = 0.0f;
@@ -256,7 +278,16 @@ float Document::evaluateTiles(const PreparedOperator& prepared, Entry& entry) {
         entry.report.energyClamped += report.energyClamped;
         entry.report.rangeClamped += report.rangeClamped;
         neededMm = std::max(neededMm, tileNeededMm);
-    });
+    };
+    constexpr std::size_t kTilesBetween = 16;
+    const std::size_t count = entry.before.size();
+    const std::size_t step = progress ? kTilesBetween : std::max<std::size_t>(count, 1);
+    for (std::size_t from = 0; from < count; from += step) {
+        tbb::parallel_for(from, std::min(from + step, count), evaluate);
+        if (progress) {
+            progress(static_cast<float>(std::min(from + step, count)) / static_cast<float>(count));
+        }
+    }
     for (const TileBefore& tile : entry.before) {
         markTile(tile.tile);
     }

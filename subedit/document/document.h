@@ -1,6 +1,7 @@
 #pragma once
 
 #include "subedit/document/edit_command.h"
+#include "subedit/document/edit_progress.h"
 #include "subedit/document/profile_arena.h"
 #include "subedit/edit/apply_operator.h"
 #include "subedit/edit/grow_radius.h"
@@ -76,7 +77,7 @@ public:
     void rename(const std::string& name) { mMaterial->name = name; }
 
     /// Does a whole command; what was undone before can no longer be redone.
-    EditReport execute(const EditCommand& command);
+    EditReport execute(const EditCommand& command, const EditProgress& progress = {});
 
     /// A stroke as it happens: the map follows every point. Between begin and end nothing else may
     /// change the document. The result has the same bytes as execute() of the whole stroke.
@@ -125,13 +126,15 @@ private:
     friend struct OpenStroke;
 
     // Doing (document.cpp).
+    [[nodiscard]] WeightMask reached(const EditCommand& command) const;
     [[nodiscard]] WeightMask strokeMask(const StrokeCommand& stroke) const;
     bool setStrokeWeight(const StrokeMask& dabs, Surface::Texel texel, WeightMask& mask) const;
     [[nodiscard]] WeightMask selected(const WeightMask& mask) const;
     void setSelection(const WeightMask& selection);
-    void applyMasked(Entry& entry);
+    void applyMasked(Entry& entry, const EditProgress& progress = {});
     void saveTiles(Entry& entry);
-    float evaluateTiles(const PreparedOperator& prepared, Entry& entry);
+    float evaluateTiles(const PreparedOperator& prepared, Entry& entry,
+                        const EditProgress& progress);
     void grow(const ProfileLayout& to, Entry& entry);
     void markTile(int tile);
     void markTexel(int tile, int x, int y);

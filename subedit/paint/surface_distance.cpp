@@ -1,7 +1,10 @@
 #include "subedit/paint/surface_distance.h"
 
+#include "subedit/stop_point.h"
+
 #include <glm/geometric.hpp>
 
+#include <cstdint>
 #include <functional>
 #include <queue>
 #include <utility>
@@ -37,7 +40,10 @@ std::vector<float> surfaceDistanceMm(const Surface& surface,
             expand(texel, 0.0f);
         }
     }
-    while (!front.empty()) {
+    for (std::uint32_t i = 1; !front.empty(); ++i) {
+        if (i % 4096 == 0) {
+            stopPoint();
+        }
         const auto [d, texel] = front.top();
         front.pop();
         if (d <= distance[texel]) {

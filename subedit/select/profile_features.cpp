@@ -2,6 +2,7 @@
 
 #include "subedit/edit/profile_editor.h"
 #include "subedit/fast_exp.h"
+#include "subedit/stop_point.h"
 
 #include <Eigen/Dense>
 #include <tbb/blocked_range.h>
@@ -76,6 +77,7 @@ void profileFeatures(const MaterialMap& map, std::span<const Surface::Texel> tex
                               Eigen::Map<Eigen::VectorXf>(row, used) = basis * root - offset;
                           }
                       });
+    stopPoint();
 }
 
 } // namespace celadon::subedit

@@ -4,6 +4,7 @@
 #include "subedit/paint/stroke_mask.h"
 #include "subedit/select/profile_features.h"
 #include "subedit/select/weight_filter.h"
+#include "subedit/stop_point.h"
 
 #include <Eigen/Dense>
 #include <tbb/parallel_for.h>
@@ -133,6 +134,7 @@ void forEachBlock(std::size_t count, const Work& work) {
     tbb::parallel_for(std::size_t{0}, (count + kBlock - 1) / kBlock, [&](std::size_t b) {
         work(b, b * kBlock, std::min(count, (b + 1) * kBlock));
     });
+    stopPoint();
 }
 
 Eigen::Map<const Eigen::VectorXf> slice(const std::vector<float>& values, std::size_t begin,

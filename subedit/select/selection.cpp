@@ -5,6 +5,7 @@
 #include "subedit/paint/surface_distance.h"
 #include "subedit/select/profile_distance.h"
 #include "subedit/select/weight_filter.h"
+#include "subedit/stop_point.h"
 
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
@@ -85,6 +86,7 @@ WeightMask similarWeights(const MaterialMap& map, const Surface& surface,
                 weights[texel] = weightFromFloat(weight);
             }
         });
+    stopPoint();
     WeightMask mask(surface.width(), surface.height());
     for (const Surface::Texel texel : texels) {
         mask.set(std::size_t{texel}, weights[texel]);

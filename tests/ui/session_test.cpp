@@ -222,6 +222,38 @@ TEST_F(SessionTest, CancelledStrokeLeavesNothing) {
     EXPECT_EQ(recorded.size(), commands);
 }
 
+TEST_F(SessionTest, LongEditsWaitForTheEndOfTheFrameAndCanBeGivenUp) {
+    const std::vector<float> before = session.activeDocument()->material().logProfile;
+    const std::size_t recordedBefore = recorded.size();
+    bool isGivenUp = true;
+    int told = 0;
+    session.onProgress = [&](const std::string& title, float) {
+        ++told;
+        if (isGivenUp) {
+            throw GivenUp(title);
+        }
+    };
+    EXPECT_TRUE(session.perform({"edit.fill"}));
+    EXPECT_EQ(told, 0); // it waits
+    session.performWaiting();
+    EXPECT_GT(told, 0);
+    EXPECT_EQ(session.activeDocument()->material().logProfile, before);
+    EXPECT_FALSE(session.undoTitle());
+    EXPECT_FALSE(session.isModified());
+    EXPECT_EQ(recorded.size(), recordedBefore);
+    ASSERT_FALSE(session.notices.empty());
+    EXPECT_EQ(session.notices.back().kind, Notice::Kind::Info);
+
+    isGivenUp = false;
+    session.perform({"edit.fill"});
+    session.perform({"edit.undo"}); // comes after what waits
+    EXPECT_FALSE(session.undoTitle());
+    session.performWaiting();
+    EXPECT_EQ(session.activeDocument()->material().logProfile, before);
+    EXPECT_TRUE(session.redoTitle());
+    EXPECT_EQ(recorded.size(), recordedBefore + 2);
+}
+
 TEST_F(SessionTest, RefusedCommandsChangeNothingAndBecomeNotices) {
     const Camera camera = session.camera;
     const float radius = session.paint.brush.radiusMm;

@@ -73,8 +73,8 @@ void drawScribbles(Session& session) {
     ImGui::EndDisabled();
     if (clicked == 2) {
         session.perform({"scribble.clear"});
-    } else if (clicked >= 0 && session.perform({"scribble.apply", {{"select", clicked == 1}}})) {
-        session.perform({"scribble.clear"});
+    } else if (clicked >= 0) {
+        session.perform({"scribble.apply", {{"select", clicked == 1}}});
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 namespace celadon::subedit {
@@ -302,6 +303,78 @@ TEST(Document, ACanceledStrokeLeavesNothing) {
     EXPECT_EQ(document.material().logProfile, original.logProfile);
     EXPECT_EQ(document.material().maxRadiusMm, original.maxRadiusMm);
     EXPECT_FALSE(document.canUndo());
+}
+
+/// A document of several dozens of tiles, with one edit done and one undone.
+std::unique_ptr<Document> largeDocument() {
+    constexpr int kLarge = 256;
+    auto document = std::make_unique<Document>(
+        test::varyingMaterial(kLarge, kLarge, 16),
+        std::make_shared<Surface>(makeFlatSurface(kLarge, kLarge, 256.0f)));
+    document->execute(ApplyCommand{ScaleAlbedo{{0.9f, 0.8f, 0.7f}}});
+    document->execute(ApplyCommand{ScaleAlbedo{{0.5f, 0.8f, 0.7f}}});
+    document->undo();
+    static_cast<void>(document->takeChanges());
+    return document;
+}
+
+TEST(Document, AnEditThatIsGivenUpLeavesNothing) {
+    struct GivenUp {};
+    Propagation propagation;
+    propagation.scribbles.push_back({{.radiusMm = 6.0f}, {}, {point(40.0f, 40.0f)}, 1.0f});
+    propagation.scribbles.push_back({{.radiusMm = 6.0f}, {}, {point(200.0f, 40.0f)}, 0.0f});
+    const std::vector<EditCommand> edits{
+        ApplyCommand{ScaleAlbedo{{0.5f, 0.6f, 0.7f}}},
+        ApplyCommand{ScaleRange{{9.0f, 9.0f, 9.0f}}}, // r_s grows
+        ApplyCommand{Heterogeneity{0.5f, 4.0f}},
+        SelectCommand{FeatherSelection{12.0f}},
+        SelectCommand{SelectSimilar{point(40.0f, 40.0f), 0.2f, {}, {}}, SelectMode::Replace},
+        PropagateCommand{Tint{{1.0f, 0.5f, 0.2f}, 0.5f}, propagation},
+    };
+    for (std::size_t e = 0; e < edits.size(); ++e) {
+        SCOPED_TRACE(e);
+        const auto untouched = largeDocument();
+        const auto document = largeDocument();
+        const auto giveUpAfter = [&](int calls) {
+            document->execute(edits[e], [&](float done) {
+                EXPECT_LE(done, 1.0f);
+                if (calls-- == 0) {
+                    throw GivenUp();
+                }
+            });
+        };
+        for (int calls = 0;; ++calls) {
+            try {
+                giveUpAfter(calls);
+                break; // it was not asked so often
+            } catch (const GivenUp&) {
+            }
+            ASSERT_EQ(document->material().logProfile, untouched->material().logProfile) << calls;
+            ASSERT_EQ(document->material().maxRadiusMm, untouched->material().maxRadiusMm);
+            ASSERT_EQ(document->selection(), untouched->selection());
+            ASSERT_EQ(document->commandCount(), 1u);
+            ASSERT_TRUE(document->canRedo());
+        }
+        untouched->execute(edits[e]);
+        EXPECT_EQ(document->material().logProfile, untouched->material().logProfile);
+        EXPECT_EQ(document->selection(), untouched->selection());
+        EXPECT_EQ(document->commandCount(), 2u);
+        document->undo();
+        EXPECT_EQ(document->material().logProfile, largeDocument()->material().logProfile);
+    }
+}
+
+TEST(Document, AFillTellsHowFarItIs) {
+    const auto document = largeDocument();
+    std::vector<float> told;
+    document->execute(ApplyCommand{ScaleAlbedo{{0.5f, 0.6f, 0.7f}}}, [&](float done) {
+        if (done >= 0.0f) {
+            told.push_back(done);
+        }
+    });
+    EXPECT_GE(told.size(), 4u);
+    EXPECT_TRUE(std::ranges::is_sorted(told));
+    EXPECT_EQ(told.back(), 1.0f);
 }
 
 TEST(Document, GrowsTheRadiusWhereAnEditNeedsIt) {
