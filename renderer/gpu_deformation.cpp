@@ -10,8 +10,6 @@ namespace celadon {
 
 namespace {
 
-constexpr int kGroup = 64;       ///< local_size_x of every shader here
-constexpr int kMaxGroups = 512;  ///< in x; the rest goes to y
 constexpr int kBoundedEach = 32; ///< vertices of an invocation of `vertex_bounds.comp`
 
 /// `include/deformer.glsl`
@@ -42,16 +40,6 @@ struct NodeEntry {
     glm::vec4 linear[3];
 };
 static_assert(sizeof(VertexNodes) == 64);
-
-/// @param each what an invocation does of `count`
-void dispatch(int count, int each = 1) {
-    const int groups = (count + kGroup * each - 1) / (kGroup * each);
-    const int across = std::min(groups, kMaxGroups);
-    if (groups > 0) {
-        glDispatchCompute(static_cast<GLuint>(across),
-                          static_cast<GLuint>((groups + across - 1) / across), 1);
-    }
-}
 
 /// Position and normal of each vertex, six floats.
 std::vector<float> interleaved(const std::vector<glm::vec3>& positions,
@@ -203,7 +191,7 @@ const gl::Buffer& GpuDeformation::morph(MovedMesh& mesh, const std::vector<doubl
         mMorph.set(1, static_cast<float>(weights[t]));
         target.vertices.bindStorage(1);
         target.changes.bindStorage(2);
-        dispatch(target.count);
+        mMorph.dispatchList(target.count);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     }
     return mesh.morphed;
@@ -269,7 +257,7 @@ const gl::Buffer& GpuDeformation::moveByNodes(MovedMesh& mesh, const gl::Buffer&
     mNodes.bindStorage(5);
     orNothing(mesh.miters).bindStorage(6);
     mesh.vertexNodes.bindStorage(7);
-    dispatch(mesh.vertices);
+    mHandles.dispatchList(mesh.vertices);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     return mesh.handled;
 }
@@ -313,13 +301,13 @@ void GpuDeformation::move(std::size_t index, const Pose& pose) {
     mDeformers.bindStorage(5);
     orNothing(mesh.miters).bindStorage(6);
     mLatticeOffsets.bindStorage(7);
-    dispatch(mesh.vertices);
+    deform.dispatchList(mesh.vertices);
     if (mesh.isMirrored != pose.mirrored[index]) {
         mesh.isMirrored = pose.mirrored[index];
         mFlip.use();
         mFlip.set(0, mesh.triangles);
         geometry.indices.bindStorage(0);
-        dispatch(mesh.triangles);
+        mFlip.dispatchList(mesh.triangles);
     }
     if (mesh.isFlat) {
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -328,7 +316,7 @@ void GpuDeformation::move(std::size_t index, const Pose& pose) {
         mFlatNormals.set(1, GpuWorld::kVertexFloats);
         geometry.vertices.bindStorage(0);
         geometry.indices.bindStorage(1);
-        dispatch(mesh.triangles);
+        mFlatNormals.dispatchList(mesh.triangles);
     }
 }
 
@@ -344,12 +332,12 @@ void GpuDeformation::measure() {
             mBoundsOf.set(0, mMeshes[m].vertices);
             mBoundsOf.set(2, glm::ivec2(task, geometry.scatters ? 1 : 0));
             geometry.vertices.bindStorage(0);
-            dispatch(mMeshes[m].vertices, kBoundedEach);
+            mBoundsOf.dispatchList(mMeshes[m].vertices, kBoundedEach);
         }
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     }
     mBoundsOf.set(2, glm::ivec2(2, 0));
-    dispatch(1);
+    mBoundsOf.dispatchList(1);
     glMemoryBarrier(GL_UNIFORM_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 

@@ -6,8 +6,7 @@
 #include "include/far_ring.glsl"
 #include "include/material.glsl"
 #include "include/solve.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "include/picture_group.glsl"
 
 layout(location = 0) uniform int level; // k, the finer one
 

@@ -1,8 +1,7 @@
 // Antialiasing, second pass: of each sample of a pixel at a silhouette, the radiance of the pixel
 // centers around that show the same surface.
 #include "include/coverage.glsl"
-
-layout(local_size_x = 64) in;
+#include "include/list_group.glsl"
 
 layout(binding = 4) uniform sampler2DMS sampleNormals;
 

@@ -2,8 +2,7 @@
 // The others, at silhouettes and where the surface is seen so slantingly that its Fresnel term changes
 // within a pixel, are listed for coverage_edge.comp.
 #include "include/coverage.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "include/picture_group.glsl"
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -30,7 +29,7 @@ void main() {
         return;
     }
     uint index = atomicAdd(edgeCount, 1u);
-    if (index % 64u == 0u) {
+    if (index % kListGroup == 0u) {
         atomicAdd(groups[0], 1u);
     }
     edges[index] = uint(pixel.x) + 65536u * uint(pixel.y);

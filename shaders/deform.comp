@@ -2,8 +2,7 @@
 // buffer that the light and the camera passes draw from.
 #include "include/vertex_pose.glsl"
 #include "include/deformer.glsl"
-
-layout(local_size_x = 64) in;
+#include "include/list_group.glsl"
 
 layout(location = 0) uniform ivec4 counts; // vertices; influences each, 0: one matrix for all; deformers; flags
 layout(location = 1) uniform int stride;   // floats of a drawn vertex
@@ -14,7 +13,7 @@ layout(std430, binding = 6) restrict readonly buffer Miters { float miters[]; };
 // (7: include/lattice.glsl)
 
 void main() {
-    int i = int(gl_GlobalInvocationID.x + gl_NumWorkGroups.x * 64u * gl_GlobalInvocationID.y);
+    int i = listIndex();
     if (i >= counts.x) {
         return;
     }

@@ -1,6 +1,6 @@
 // Minimum and maximum depth of each texel's footprint (Chen et al. 2012, after Nichols et al. 2009).
 // Background counts as far away, so that silhouettes are never fit. Level 0 is derived from positions.
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "include/picture_group.glsl"
 
 layout(location = 0) uniform int childLevel; // -1: make level 0
 

@@ -2,8 +2,7 @@
 // of each texel, weighted by the texel's solid angle, which is alpha: so that means over texels, which mips and
 // filters are, keep the light.
 #include "include/cube.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "include/picture_group.glsl"
 
 layout(binding = 0) uniform sampler2D panorama;
 

@@ -3,8 +3,7 @@
 // (Krivanek and Colbert 2008).
 #include "include/cube.glsl"
 #include "include/ggx.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "include/picture_group.glsl"
 
 layout(location = 0) uniform float roughness; // 0: the map itself
 

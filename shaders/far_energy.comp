@@ -1,8 +1,7 @@
 // For accumulation.comp: ln of the far energy of each texel of a level of the splatting buffer.
 #include "include/far_ring.glsl"
 #include "include/material.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "include/picture_group.glsl"
 
 layout(location = 0) uniform int level;
 

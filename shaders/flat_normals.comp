@@ -1,5 +1,5 @@
 // Gives the three vertices of each triangle, which are its own, the normal of its face.
-layout(local_size_x = 64) in;
+#include "include/list_group.glsl"
 
 layout(location = 0) uniform int count; // triangles
 layout(location = 1) uniform int stride;
@@ -13,7 +13,7 @@ vec3 positionOf(uint vertex) {
 }
 
 void main() {
-    int i = int(gl_GlobalInvocationID.x + gl_NumWorkGroups.x * 64u * gl_GlobalInvocationID.y);
+    int i = listIndex();
     if (i >= count) {
         return;
     }

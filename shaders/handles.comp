@@ -1,8 +1,7 @@
 // Moves the rest shape of one mesh by the nodes that handles move, before skins and deformers: the pair of
 // renderer/scene/node_blend.cpp. Writes position, normal and miter of each drawn vertex, in the space of its binding.
 #include "include/vertex_pose.glsl"
-
-layout(local_size_x = 64) in;
+#include "include/list_group.glsl"
 
 layout(location = 0) uniform ivec4 counts; // vertices; influences each, 0: one matrix for all; 0; flags
 
@@ -74,7 +73,7 @@ vec3 followNodes(VertexNodes vertex, vec3 p, out mat3 jacobian) {
 }
 
 void main() {
-    int i = int(gl_GlobalInvocationID.x + gl_NumWorkGroups.x * 64u * gl_GlobalInvocationID.y);
+    int i = listIndex();
     if (i >= counts.x) {
         return;
     }

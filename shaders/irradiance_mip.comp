@@ -3,8 +3,7 @@
 // never leak in. The covariance gathers the children's spread: a parent stays an honest patch.
 // The hierarchical scheme also grows the ball outside which the node may stand for its children.
 #include "include/blocks.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "include/picture_group.glsl"
 
 layout(std140, binding = 3) uniform SolveUniforms { SolveBlock solve; };
 

@@ -1,8 +1,7 @@
 // What irradiance_buffer.frag looks up in the materials' tables, anew: all of a light view that changes where
 // only profiles do.
 #include "include/material.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "include/picture_group.glsl"
 
 layout(binding = 0) uniform sampler2D surfaces; // of the light view
 

@@ -1,8 +1,7 @@
 // Albedo of the specular lobe under uniform light, a F0 + b with Schlick's Fresnel term, over n.v and
 // roughness (Karis 2013).
 #include "include/ggx.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "include/picture_group.glsl"
 
 layout(rg32f, binding = 0) uniform writeonly image2D result;
 

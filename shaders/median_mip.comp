@@ -3,8 +3,7 @@
 // material, whole; position and depth are the mean of those in the median's depth cluster, so that the
 // representative lies at the texel's center. Never a mean across a silhouette.
 #include "include/bounds.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "include/picture_group.glsl"
 
 layout(location = 0) uniform int childLevel;
 layout(location = 1) uniform float clusterDepth; // of R_w

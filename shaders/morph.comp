@@ -1,5 +1,5 @@
 // Adds one morph target, times its weight, to the vertices that it moves; each occurs once.
-layout(local_size_x = 64) in;
+#include "include/list_group.glsl"
 
 layout(location = 0) uniform int count;
 layout(location = 1) uniform float weight;
@@ -9,7 +9,7 @@ layout(std430, binding = 1) restrict readonly buffer Moved { uint moved[]; };   
 layout(std430, binding = 2) restrict readonly buffer Changes { float changes[]; };     // 6 each
 
 void main() {
-    int i = int(gl_GlobalInvocationID.x + gl_NumWorkGroups.x * 64u * gl_GlobalInvocationID.y);
+    int i = listIndex();
     if (i >= count) {
         return;
     }

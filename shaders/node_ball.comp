@@ -3,8 +3,7 @@
 // spread / theta_s, and wide enough that the balls of its children, grown by their fade, lie within: with
 // nested balls the weights of a texel's ancestors sum to one at every distance.
 #include "include/solve.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "include/picture_group.glsl"
 
 layout(location = 0) uniform int level; // >= 1
 

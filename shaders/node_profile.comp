@@ -2,8 +2,7 @@
 // its footprint (DESIGN 3.1), gathered from profiles, never by averaging texture coordinates. Written
 // as ln P on the common knots of all materials; one invocation per node and knot.
 #include "include/material.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "include/picture_group.glsl"
 
 layout(std140, binding = 3) uniform SolveUniforms { SolveBlock solve; };
 

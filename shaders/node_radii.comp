@@ -2,8 +2,7 @@
 // closed form of each segment's energy. Radii are linear in energy within a segment.
 // Paired with subedit/effective_radius.cpp.
 #include "include/blocks.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "include/picture_group.glsl"
 
 layout(std140, binding = 3) uniform SolveUniforms { SolveBlock solve; };
 

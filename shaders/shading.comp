@@ -3,8 +3,7 @@
 #include "include/frame.glsl"
 #include "include/fresnel.glsl"
 #include "include/material.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "include/picture_group.glsl"
 
 layout(binding = 0) uniform sampler2D positions;
 layout(binding = 1) uniform sampler2D normals;

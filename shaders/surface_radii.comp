@@ -1,7 +1,6 @@
 // R_P of what a level of the splatting buffer shows, anew: all in it that changes where only profiles do.
 #include "include/material.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "include/picture_group.glsl"
 
 layout(rgba32f, binding = 0) uniform image2D surfaces;
 

@@ -1,6 +1,6 @@
 // Least and greatest view depth of the scattering surface in tiles of 8 x 8 pixels and, level by level,
 // of 2 x 2 of those: a splat whose sphere no tile's range meets reaches no pixel.
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "include/picture_group.glsl"
 
 layout(location = 0) uniform int childLevel; // -1: from the pixels
 

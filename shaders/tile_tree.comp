@@ -2,8 +2,7 @@
 // (tile_gather.comp). The tree goes on above the buffer's last level until few roots are left. In the paper's
 // scheme also whether the node is fit.
 #include "include/fit.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "include/picture_group.glsl"
 
 layout(location = 0) uniform ivec2 request; // level, levels of the irradiance buffer
 

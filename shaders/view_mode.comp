@@ -2,8 +2,7 @@
 // the picture would be, as linear display colors.
 #include "include/frame.glsl"
 #include "include/material.glsl"
-
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "include/picture_group.glsl"
 
 layout(location = 0) uniform int mode;   // as ViewMode (view_mode_pass.h)
 layout(location = 1) uniform vec4 scale; // level to show; exposure factor; least and greatest radius in mm

@@ -1,5 +1,6 @@
 #include "renderer/gl/program.h"
 
+#include "renderer/gl/context.h"
 #include "renderer/gl/debug.h"
 #include "subedit/errors.h"
 
@@ -83,8 +84,12 @@ std::vector<ShaderSource> loadStages(const ShaderLibrary& library,
                                      const std::vector<std::string_view>& paths,
                                      const std::vector<ShaderDefine>& defines) {
     std::vector<ShaderSource> stages;
+    std::vector<ShaderDefine> all = defines;
+    if (const Context* context = Context::current(); context != nullptr && context->isSoftware()) {
+        all.push_back({"WIDE_GROUPS", "1"});
+    }
     for (const std::string_view path : paths) {
-        stages.push_back(ShaderSource::load(library, path, defines));
+        stages.push_back(ShaderSource::load(library, path, all));
     }
     return stages;
 }
@@ -123,7 +128,28 @@ std::optional<Program> Program::build(std::string_view label, std::span<const Sh
         }
         return std::nullopt;
     }
+    if (stages.size() == 1 && stages.front().stage() == GL_COMPUTE_SHADER) {
+        glGetProgramiv(program.id(), GL_COMPUTE_WORK_GROUP_SIZE, &program.mGroup.x);
+    }
     return program;
+}
+
+void Program::dispatchOver(glm::ivec2 size, int layers) const {
+    const glm::ivec3 groups = (glm::ivec3(size, layers) + mGroup - 1) / mGroup;
+    if (groups.x > 0 && groups.y > 0 && groups.z > 0) {
+        glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y),
+                          static_cast<GLuint>(groups.z));
+    }
+}
+
+void Program::dispatchList(int count, int each) const {
+    constexpr int kMostAcross = 512; // the rest goes to y
+    const int groups = (count + mGroup.x * each - 1) / (mGroup.x * each);
+    const int across = std::min(groups, kMostAcross);
+    if (groups > 0) {
+        glDispatchCompute(static_cast<GLuint>(across),
+                          static_cast<GLuint>((groups + across - 1) / across), 1);
+    }
 }
 
 Program::Program(std::string_view label, std::span<const ShaderSource> stages) {

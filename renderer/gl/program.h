@@ -25,7 +25,8 @@ public:
     Program() = default;
     /// @throws ShaderError with file:line of the first errors
     Program(std::string_view label, std::span<const ShaderSource> stages);
-    /// From paths relative to shaders/.
+    /// From paths relative to shaders/. WIDE_GROUPS is defined where the driver is software
+    /// (include/group_sizes.glsl).
     Program(std::string_view label, const ShaderLibrary& library,
             const std::vector<std::string_view>& paths,
             const std::vector<ShaderDefine>& defines = {});
@@ -40,6 +41,11 @@ public:
     [[nodiscard]] GLuint id() const { return mHandle.id(); }
     explicit operator bool() const { return static_cast<bool>(mHandle); }
     void use() const { glUseProgram(id()); }
+
+    /// Of a compute shader, which must be in use: an invocation for each texel of as many pictures
+    /// as there are layers, or for each `each` elements of a list. Groups may reach beyond.
+    void dispatchOver(glm::ivec2 size, int layers = 1) const;
+    void dispatchList(int count, int each = 1) const;
 
     void set(GLint location, float value) const { glProgramUniform1f(id(), location, value); }
     void set(GLint location, int value) const { glProgramUniform1i(id(), location, value); }
@@ -99,6 +105,7 @@ private:
     };
 
     Handle<Traits> mHandle;
+    glm::ivec3 mGroup{0}; ///< invocations of a work group of a compute shader
 };
 
 } // namespace celadon::gl

@@ -100,7 +100,7 @@ void Antialiasing::resolveDraw(const SplattingBuffer& view, const gl::Texture& r
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     mInterior.use();
-    dispatchOver(view.size());
+    mInterior.dispatchOver(view.size());
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
                     GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     mEdge.use();

@@ -1,7 +1,6 @@
 #include "renderer/shading/environment_reflection.h"
 
 #include "renderer/gl/debug.h"
-#include "renderer/splatting/irradiance_buffer.h"
 
 #include <algorithm>
 #include <bit>
@@ -59,7 +58,7 @@ EnvironmentReflection::EnvironmentReflection(const gl::ShaderLibrary& shaders,
     panorama.bind(0);
     around.bind(0);
     cube.bindImage(0, 0);
-    dispatchOver(glm::ivec2(edge), 6);
+    toCube.dispatchOver(glm::ivec2(edge), 6);
     glMemoryBarrier(GL_ALL_BARRIER_BITS);
     gl::Sampler::unbind(0);
     cube.generateMipmaps();
@@ -71,7 +70,7 @@ EnvironmentReflection::EnvironmentReflection(const gl::ShaderLibrary& shaders,
     for (int level = 0; level < kLobeLevels; ++level) {
         toLobe.set(0, float(level) / float(kLobeLevels - 1));
         mLobes.bindImage(0, level);
-        dispatchOver(glm::ivec2(mLobes.edge(level)), 6);
+        toLobe.dispatchOver(glm::ivec2(mLobes.edge(level)), 6);
     }
     gl::Sampler::unbind(0);
 
@@ -79,7 +78,7 @@ EnvironmentReflection::EnvironmentReflection(const gl::ShaderLibrary& shaders,
     const gl::Program toTable("albedo of the lobe", shaders, {"lobe_albedo.comp"});
     toTable.use();
     mAlbedos.bindImage(0, 0, GL_WRITE_ONLY);
-    dispatchOver(glm::ivec2(kTableSize));
+    toTable.dispatchOver(glm::ivec2(kTableSize));
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 

@@ -1,7 +1,6 @@
 #include "renderer/shading/shading_pass.h"
 
 #include "renderer/gl/debug.h"
-#include "renderer/splatting/irradiance_buffer.h"
 
 namespace celadon {
 
@@ -23,7 +22,7 @@ void ShadingPass::shade(const SplattingBuffer& view, const gl::Texture& exitance
     view.emissions().bind(5);
     mRadiance.bindImage(0, 0, GL_WRITE_ONLY);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-    dispatchOver(mRadiance.size2d());
+    mProgram.dispatchOver(mRadiance.size2d());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 

@@ -1,7 +1,6 @@
 #include "renderer/shading/view_mode_pass.h"
 
 #include "renderer/gl/debug.h"
-#include "renderer/splatting/irradiance_buffer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +28,7 @@ const gl::Texture& ViewModePass::apply(const SplattingBuffer& view, const gl::Te
     exitance.bind(3);
     mResult.bindImage(0, 0, GL_WRITE_ONLY);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-    dispatchOver(mResult.size2d());
+    mProgram.dispatchOver(mResult.size2d());
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     return mResult;
 }

@@ -1,7 +1,6 @@
 #include "renderer/splatting/accumulation.h"
 
 #include "renderer/gl/debug.h"
-#include "renderer/splatting/irradiance_buffer.h"
 #include "renderer/splatting/node_balls.h"
 
 namespace celadon {
@@ -30,7 +29,7 @@ void Accumulation::accumulate(const gl::Texture& exitance, const SplattingBuffer
         mFarEnergy.set(0, level + 1);
         view.surfaces().bind(0);
         farEnergies.bindImage(0, 0, GL_WRITE_ONLY);
-        dispatchOver(farEnergies.size2d());
+        mFarEnergy.dispatchOver(farEnergies.size2d());
 
         mProgram.use();
         mProgram.set(0, level);
@@ -41,7 +40,7 @@ void Accumulation::accumulate(const gl::Texture& exitance, const SplattingBuffer
         farEnergies.bind(4);
         exitance.bindImage(0, level, GL_READ_WRITE);
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-        dispatchOver(exitance.size2d(level));
+        mProgram.dispatchOver(exitance.size2d(level));
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }

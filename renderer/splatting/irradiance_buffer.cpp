@@ -10,11 +10,6 @@ glm::ivec2 paddedSize(glm::ivec2 size, int levels) {
     return (size + unit - 1) / unit * unit;
 }
 
-void dispatchOver(glm::ivec2 size, int layers) {
-    glDispatchCompute(static_cast<GLuint>((size.x + 7) / 8), static_cast<GLuint>((size.y + 7) / 8),
-                      static_cast<GLuint>(layers));
-}
-
 IrradianceBuffer::IrradianceBuffer(const gl::ShaderLibrary& shaders, int materialCount, int size,
                                    int levels)
     : mSize(size),
@@ -62,7 +57,7 @@ void IrradianceBuffer::refreshRadii(const gl::Texture& surfaces) {
     surfaces.bind(0);
     mTargets[5].bindImage(0, 0, GL_WRITE_ONLY);
     mTargets[6].bindImage(1, 0, GL_WRITE_ONLY);
-    dispatchOver(mTargets[5].size2d());
+    mRadii.dispatchOver(mTargets[5].size2d());
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
 }
 
@@ -75,7 +70,7 @@ void IrradianceBuffer::buildMips() {
         mTargets[0].bind(0);
         mDepthRanges.bind(1);
         mDepthRanges.bindImage(0, level, GL_WRITE_ONLY);
-        dispatchOver(mDepthRanges.size2d(level));
+        mRangeMip.dispatchOver(mDepthRanges.size2d(level));
         if (level == 0) {
             continue;
         }
@@ -85,7 +80,7 @@ void IrradianceBuffer::buildMips() {
             mTargets[i].bind(static_cast<GLuint>(i));
             mTargets[i].bindImage(static_cast<GLuint>(i), level, GL_WRITE_ONLY);
         }
-        dispatchOver(mTargets[0].size2d(level));
+        mMip.dispatchOver(mTargets[0].size2d(level));
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }

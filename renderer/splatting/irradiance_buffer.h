@@ -54,7 +54,4 @@ private:
 /// The size that halves without a rest down to the last of `levels`.
 [[nodiscard]] glm::ivec2 paddedSize(glm::ivec2 size, int levels);
 
-/// Compute groups of 8 x 8 that cover `size`.
-void dispatchOver(glm::ivec2 size, int layers = 1);
-
 } // namespace celadon

@@ -12,8 +12,6 @@ namespace {
 constexpr std::size_t kViewBytes = 256; ///< uniform blocks may begin at any multiple of this
 static_assert(sizeof(blocks::LightBlock) <= kViewBytes);
 
-constexpr int kGroup = 8; ///< local_size_x
-
 /// A spot this wide is taken for a point: its own frustum would be stretched too much.
 constexpr double kWidestSpotRadians = 1.0;
 
@@ -86,7 +84,7 @@ void LightViews::update(std::span<const Light> lights, const GpuWorld& world) {
     mSources.bindStorage(0);
     mSourceIndices.bindStorage(1);
     mViews.bindStorage(2);
-    glDispatchCompute(static_cast<GLuint>((count() + kGroup - 1) / kGroup), 1, 1);
+    mMake.dispatchList(count());
     glMemoryBarrier(GL_UNIFORM_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
     askWhichAreUsed();
 }

@@ -23,7 +23,7 @@ void NodeBalls::build(const IrradianceBuffer& buffer) {
     for (int level = 1; level < buffer.levels(); ++level) {
         mProgram.set(0, level);
         mRadii.bindImage(0, level, GL_WRITE_ONLY);
-        dispatchOver(mRadii.size2d(level));
+        mProgram.dispatchOver(mRadii.size2d(level));
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     }
 }

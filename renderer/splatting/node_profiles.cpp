@@ -26,7 +26,7 @@ void NodeProfiles::build(const IrradianceBuffer& buffer, float cutEnergy) {
         buffer.surfaces().bind(1);
         mProfiles.bind(2);
         mProfiles.bindImage(0, level - 1, GL_WRITE_ONLY);
-        dispatchOver(size, mKnots);
+        mProfile.dispatchOver(size, mKnots);
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
         mRadii.use();
         mRadii.set(0, level);
@@ -35,7 +35,7 @@ void NodeProfiles::build(const IrradianceBuffer& buffer, float cutEnergy) {
         mProfiles.bind(1);
         buffer.extents().bindImage(0, level, GL_READ_WRITE);
         buffer.kepts().bindImage(1, level, GL_WRITE_ONLY);
-        dispatchOver(size);
+        mRadii.dispatchOver(size);
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }

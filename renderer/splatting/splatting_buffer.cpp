@@ -89,7 +89,7 @@ void SplattingBuffer::refreshRadii() {
     mRadii.use();
     for (int level = 0; level < mLevels; ++level) {
         mTargets[2].bindImage(0, level, GL_READ_WRITE);
-        dispatchOver(mTargets[2].size2d(level));
+        mRadii.dispatchOver(mTargets[2].size2d(level));
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
@@ -105,7 +105,7 @@ void SplattingBuffer::buildMips(double clusterDepth) {
             mTargets[i].bindImage(static_cast<GLuint>(i), level, GL_WRITE_ONLY);
         }
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-        dispatchOver(mTargets[0].size2d(level));
+        mMip.dispatchOver(mTargets[0].size2d(level));
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
@@ -120,7 +120,7 @@ void SplattingBuffer::buildTileRanges() {
         mTileRange.set(0, level - 1);
         mTileRanges.bindImage(0, level, GL_WRITE_ONLY);
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-        dispatchOver(mTileRanges.size2d(level));
+        mTileRange.dispatchOver(mTileRanges.size2d(level));
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }

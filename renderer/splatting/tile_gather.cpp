@@ -94,7 +94,7 @@ void TileGather::buildTree(const GpuSamples& samples) {
         if (mFits) {
             mFits.bindImage(1, level, GL_WRITE_ONLY);
         }
-        dispatchOver(mTree.size2d(level));
+        mBuild.dispatchOver(mTree.size2d(level));
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     }
 }

@@ -14,7 +14,7 @@ layout(rgba32f, binding = 0) uniform image2D color; // premultiplied; alpha is c
 
 const float slanting = 0.25; // cosine of normal and view below which a pixel center stands for little
 
-// Pixels that the first pass leaves to the second, and their groups of 64.
+// Pixels that the first pass leaves to the second, and their groups of kListGroup.
 layout(std430, binding = 0) restrict buffer Edges {
     uint groups[3];
     uint edgeCount;
