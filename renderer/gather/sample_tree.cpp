@@ -69,6 +69,9 @@ void SampleTree::build(const LightTexels& texels, const GatherMaterials& materia
     }
     for (std::size_t k = 0; k < levels; ++k) {
         bound(k);
+        if (settings.hierarchical) {
+            arrange(k);
+        }
     }
 }
 
@@ -268,6 +271,17 @@ void SampleTree::bound(std::size_t level) {
                 std::max(node.extent, lengthOf(child.position, node.position) + child.extent);
             node.reach = std::max(node.reach, child.reach);
         }
+    }
+}
+
+void SampleTree::arrange(std::size_t level) {
+    const std::vector<TreeNode>& nodes = mLevels[level].nodes;
+    std::vector<NodeBall>& balls = mLevels[level].balls;
+    balls.resize(nodes.size() + kSiblings - 1);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const TreeNode& node = nodes[i];
+        balls[i] = {node.position[0], node.position[1], node.position[2], node.ball,
+                    node.extent,      node.first,       node.children};
     }
 }
 

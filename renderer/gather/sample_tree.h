@@ -57,9 +57,18 @@ class SampleTree {
 public:
     static constexpr float kNeverUsed = 1e30f;
 
+    /// All of a node that a traversal looks at on its way: half a cache line.
+    struct alignas(32) NodeBall {
+        float x, y, z, ball;
+        float extent;
+        std::uint32_t first, children;
+    };
+    static constexpr std::size_t kSiblings = 4; ///< at most
+
     struct Level {
         std::vector<TreeNode> nodes; ///< in the order of their Morton codes
         std::vector<gather::Sample> samples;
+        std::vector<NodeBall> balls; ///< hierarchical; some more than there are nodes
     };
 
     /// Replaces what was there; memory is reused.
@@ -115,6 +124,7 @@ private:
     void growBalls(std::size_t level);
     void dropReplaced(std::size_t level);
     void bound(std::size_t level);
+    void arrange(std::size_t level);
     void finishSample(std::size_t level, std::size_t i);
 
     const GatherMaterials* mMaterials = nullptr;

@@ -86,7 +86,7 @@ private:
             gatherChange(corner)) {
             return;
         }
-        mTraversal.choose(listed(), mLoader.bounds, mFound);
+        listed().choose(mLoader.bounds, mFound);
         mLoader.loadProfiles(mJob.view, corner);
         const std::uint64_t added = addPairs(mFound, mJob.tree);
         mLoader.store(mJob.view, corner, added);
@@ -97,13 +97,13 @@ private:
     /// @return false where gathering all again costs no more
     bool gatherChange(glm::ivec2 corner) {
         listChange();
-        mTraversal.choose(mListedCome, mLoader.bounds, mFound);
-        mBefore->choose(mListedGone, mLoader.bounds, mGone);
+        mListedCome.choose(mLoader.bounds, mFound);
+        mListedGone.choose(mLoader.bounds, mGone);
         if (mFound.empty() && mGone.empty()) {
             return true;
         }
         if (const std::size_t both = mFound.size() + mGone.size(); both > kFew) {
-            mTraversal.choose(listed(), mLoader.bounds, mAll);
+            listed().choose(mLoader.bounds, mAll);
             if (both >= mAll.size()) {
                 return false;
             }
@@ -120,7 +120,7 @@ private:
         return true;
     }
 
-    const std::vector<Listed>& listed() {
+    CandidateList& listed() {
         if (!std::exchange(mIsListed, true)) {
             mTraversal.list(mBlock, mJob.level, nullptr, mListed);
         }
@@ -148,7 +148,7 @@ private:
     PointBounds mBlock;
     bool mIsListed = false;       ///< mListed is that of the block
     bool mIsChangeListed = false; ///< mListedCome and mListedGone are
-    std::vector<Listed> mListed, mListedCome, mListedGone;
+    CandidateList mListed, mListedCome, mListedGone;
     std::vector<celadon::gather::Candidate> mFound, mGone, mAll; ///< of the tile
     std::uint64_t mPairs = 0;
 };

@@ -1,26 +1,18 @@
 #pragma once
 
+#include "renderer/gather/candidate_list.h"
 #include "renderer/gather/tile_gather.h"
-#include "renderer/scene/point_bounds.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
-#include <vector>
+#include <array>
+#include <cstdint>
+#include <cstring>
 
 namespace celadon {
 
 inline constexpr float kDropped = 0.999f; ///< Rbar from which a level is left out
-
-/// A sample that may count in some tile of a block, with what decides about each of them.
-struct Listed {
-    gather::Candidate candidate;
-    glm::vec3 position;
-    float ball; ///< hierarchical
-    glm::vec3 parentPosition;
-    float parentBall; ///< 0: no parent
-    bool isOwn;       ///< false: did not change itself, only its parent, which it stands in for
-};
 
 /// Walks the tree for a block of tiles and lists the samples that may count there.
 class Traversal {
@@ -35,33 +27,44 @@ public:
     /// @param only  null: all samples that count. Else those that do not bring the same in the two
     ///              trees, of one shape, of which this walks one; hierarchical only
     void list(const PointBounds& bounds, int splattingLevel, const TreeChange* only,
-              std::vector<Listed>& found) {
+              CandidateList& found) {
         mOnly = only;
         mFound = &found;
         mBounds = bounds;
         mLevel = splattingLevel;
         found.clear();
         if (!mTree.levels().empty() && !mTree.levels().back().nodes.empty()) {
+            const std::size_t root = mTree.levels().size() - 1;
             if (mSettings.hierarchical) {
-                visitHierarchical(mTree.levels().size() - 1, 0, nullptr, glm::vec2(0.0f));
+                visitSiblings(root, 0, 1, {});
             } else {
-                visitPaper(mTree.levels().size() - 1, 0);
-            }
-        }
-    }
-
-    /// Those of a block's list that count in one of its tiles.
-    void choose(const std::vector<Listed>& listed, const PointBounds& tile,
-                std::vector<gather::Candidate>& chosen) const {
-        chosen.clear();
-        for (const Listed& one : listed) {
-            if (mSettings.hierarchical ? countsHierarchical(one, tile) : countsPaper(one, tile)) {
-                chosen.push_back(one.candidate);
+                visitPaper(root, 0);
             }
         }
     }
 
 private:
+    /// One number of each of four siblings. GCC and Clang alike; any x86-64 has such registers.
+    using Four = float __attribute__((vector_size(16)));
+    using FourMasks = std::int32_t __attribute__((vector_size(16)));
+    static constexpr float kEverywhere = 1e18f; ///< mm; its square is still finite
+
+    static Four four(float v) { return Four{v, v, v, v}; }
+    static Four load(const float* p) {
+        Four v;
+        std::memcpy(&v, p, sizeof(v));
+        return v;
+    }
+    static Four larger(Four a, Four b) { return a > b ? a : b; }
+    static Four square(Four v) { return v * v; }
+
+    /// What siblings need of their parent.
+    struct Parent {
+        const gather::Sample* sample = nullptr; ///< null: none that is used
+        float ball = 0.0f;                      ///< of one that is used, mm
+        bool isInside = false;                  ///< of the block something lies beyond the ball
+    };
+
     [[nodiscard]] float depthOf(const float* p) const {
         const glm::mat4& m = mSettings.view;
         return -(m[0][2] * p[0] + m[1][2] * p[1] + m[2][2] * p[2] + m[3][2]);
@@ -70,91 +73,110 @@ private:
         return (std::max(depth, 1e-3f) * mSettings.pixelScale + mSettings.pixelOffset) *
                static_cast<float>(1 << k);
     }
-    [[nodiscard]] float ringRadius(int k, float depth) const {
-        return k == 0 ? 0.0f : pixelWidth(depth, k) / mSettings.pixelAngle;
-    }
-    /// 0: this ring reaches r_s. A level whose ring would begin beyond is left out.
-    [[nodiscard]] float nextRing(float depth) const {
-        const float next = mLevel + 1 < mLevels ? ringRadius(mLevel + 1, depth) : mRangeMm;
-        return next < mRangeMm ? next : 0.0f;
-    }
-
-    [[nodiscard]] bool countsHierarchical(const Listed& one, const PointBounds& tile) const {
-        const glm::vec2 squared = tile.squaredDistances(one.position);
-        const auto square = [](float x) { return x * x; };
-        if (squared.x >= square(mRangeMm) || squared.y < square(one.ball) ||
-            squared.y <= square(gather::kRingLow * one.candidate.low) ||
-            (one.candidate.high > 0.0f &&
-             squared.x >= square(gather::kRingHigh * one.candidate.high))) {
-            return false;
+    [[nodiscard]] Four ringRadii(int k, Four depth) const {
+        if (k == 0) {
+            return four(0.0f);
         }
-        if (one.parentBall <= 0.0f) {
-            return true;
+        const Four width =
+            larger(depth, four(1e-3f)) * mSettings.pixelScale + mSettings.pixelOffset;
+        return width * (static_cast<float>(1 << k) / mSettings.pixelAngle);
+    }
+    /// Where the next ring begins; kEverywhere: this one reaches r_s. A level whose ring would
+    /// begin beyond is left out.
+    [[nodiscard]] Four nextRings(Four depth) const {
+        if (mLevel + 1 >= mLevels) {
+            return four(kEverywhere);
         }
-        const glm::vec2 fromParent = tile.squaredDistances(one.parentPosition);
-        return fromParent.x < square((1.0f + mSettings.fade) * one.parentBall) &&
-               (one.isOwn || fromParent.y >= square(one.parentBall));
+        const Four next = ringRadii(mLevel + 1, depth);
+        return next < mRangeMm ? next : four(kEverywhere);
     }
 
-    static bool countsPaper(const Listed& one, const PointBounds& tile) {
-        const glm::vec2 squared = tile.squaredDistances(one.position);
-        return squared.x < one.candidate.high * one.candidate.high &&
-               squared.y >= one.candidate.low * one.candidate.low;
-    }
-
-    /// @param parent  null for the root
-    /// @param parentDistances  least and greatest distance of the tile from it
-    void visitHierarchical(std::size_t level, std::uint32_t index, const TreeNode* parent,
-                           glm::vec2 parentDistances) {
-        const SampleTree::Level& nodes = mTree.levels()[level];
-        const TreeNode& node = nodes.nodes[index];
-        const glm::vec2 distances = mBounds.distances(glm::make_vec3(node.position));
-        const float nearest = distances.x;
-        const float farthest = distances.y;
-        if (nearest - node.extent >= mRangeMm) {
-            return;
-        }
-        const float depth = depthOf(node.position);
-        // Rings of the whole subtree lie between those of its nearest and its farthest depth.
-        if (gather::kRingLow * ringRadius(mLevel, depth - node.extent) > farthest + node.extent) {
-            return;
-        }
-        const float outermost = nextRing(depth + node.extent);
-        if (outermost > 0.0f && gather::kRingHigh * outermost < nearest - node.extent) {
-            return;
-        }
-        // Of changes: what did not change itself counts where it stands in for a parent that did.
-        const bool isChanged = mOnly == nullptr || mOnly->at(level, index);
-        const float fadeEnd = (1.0f + mSettings.fade) * node.ball;
-        if (node.ball < SampleTree::kNeverUsed && nearest < mRangeMm && farthest >= node.ball &&
-            (parent == nullptr || parent->ball >= SampleTree::kNeverUsed ||
-             parentDistances.x < (1.0f + mSettings.fade) * parent->ball)) {
-            const gather::Sample* usedParent =
-                parent != nullptr && parent->ball < SampleTree::kNeverUsed ? mParentSample
-                                                                           : nullptr;
-            const float low = ringRadius(mLevel, depth);
-            const float high = nextRing(depth);
-            if (low < mRangeMm && farthest > gather::kRingLow * low &&
-                (high == 0.0f || nearest < gather::kRingHigh * high) &&
-                (isChanged || (usedParent != nullptr && parentDistances.y >= parent->ball))) {
-                mFound->push_back(
-                    {{&nodes.samples[index], usedParent, low, high},
-                     glm::make_vec3(node.position),
-                     node.ball,
-                     usedParent != nullptr ? glm::make_vec3(parent->position) : glm::vec3(0.0f),
-                     usedParent != nullptr ? parent->ball : 0.0f,
-                     isChanged});
+    /// What counts of up to four siblings, and of what is below them.
+    void visitSiblings(std::size_t level, std::uint32_t first, int count, const Parent& parent) {
+        const SampleTree::NodeBall* const nodes = mTree.levels()[level].balls.data() + first;
+        const Four a = load(&nodes[0].x), b = load(&nodes[1].x);
+        const Four c = load(&nodes[2].x), d = load(&nodes[3].x);
+        const Four abXY = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+        const Four cdXY = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+        const Four abZBall = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+        const Four cdZBall = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+        const Four x = __builtin_shufflevector(abXY, cdXY, 0, 1, 4, 5);
+        const Four y = __builtin_shufflevector(abXY, cdXY, 2, 3, 6, 7);
+        const Four z = __builtin_shufflevector(abZBall, cdZBall, 0, 1, 4, 5);
+        const Four ball = __builtin_shufflevector(abZBall, cdZBall, 2, 3, 6, 7);
+        const Four extent{nodes[0].extent, nodes[1].extent, nodes[2].extent, nodes[3].extent};
+        const glm::vec3& low = mBounds.low;
+        const glm::vec3& high = mBounds.high;
+        // Squares of the least and greatest distance of the block.
+        const Four none = four(0.0f);
+        const Four nearest = square(larger(larger(low.x - x, x - high.x), none)) +
+                             square(larger(larger(low.y - y, y - high.y), none)) +
+                             square(larger(larger(low.z - z, z - high.z), none));
+        const Four farthest = square(larger(x - low.x, high.x - x)) +
+                              square(larger(y - low.y, high.y - y)) +
+                              square(larger(z - low.z, high.z - z));
+        const glm::mat4& m = mSettings.view;
+        const Four depth = -(m[0][2] * x + m[1][2] * y + m[2][2] * z + m[3][2]);
+        // Rings of a whole subtree lie between those of its nearest and its farthest depth.
+        const Four innermost =
+            larger(gather::kRingLow * ringRadii(mLevel, depth - extent) - extent, none);
+        const Four outermost = gather::kRingHigh * nextRings(depth + extent) + extent;
+        const FourMasks isReached = (nearest < square(mRangeMm + extent)) &
+                                    (square(innermost) <= farthest) &
+                                    (nearest <= square(outermost));
+        const Four start = ringRadii(mLevel, depth);
+        const Four end = nextRings(depth);
+        const FourMasks isUsed = ball < SampleTree::kNeverUsed;
+        const Four usedBall = isUsed ? ball : none;
+        FourMasks counts = isReached & isUsed & (nearest < mRangeMm * mRangeMm) &
+                           (farthest >= square(usedBall)) & (start < mRangeMm) &
+                           (farthest > square(gather::kRingLow * start)) &
+                           (nearest < square(gather::kRingHigh * end));
+        const Four fadeEnd = (1.0f + mSettings.fade) * usedBall;
+        const FourMasks isFading = nearest < square(fadeEnd);
+        const FourMasks descends = isReached & (ball > 0.0f) & (~isUsed | isFading);
+        std::array<std::int32_t, 4> countsOf, descendsTo, insides;
+        std::memcpy(countsOf.data(), &counts, sizeof(counts));
+        std::memcpy(descendsTo.data(), &descends, sizeof(descends));
+        const FourMasks isInside = farthest >= square(usedBall);
+        std::memcpy(insides.data(), &isInside, sizeof(isInside));
+        for (int i = 0; i < count; ++i) {
+            const auto lane = static_cast<std::size_t>(i);
+            if ((countsOf[lane] | descendsTo[lane]) == 0) {
+                continue;
+            }
+            const std::uint32_t index = first + static_cast<std::uint32_t>(i);
+            // Of changes: what did not change itself counts where it stands in for a parent that
+            // did.
+            const bool isChanged = mOnly == nullptr || mOnly->at(level, index);
+            if (countsOf[lane] != 0 &&
+                (isChanged || (parent.sample != nullptr && parent.isInside))) {
+                add(level, index, parent, start[i], end[i], isChanged);
+            }
+            if (descendsTo[lane] != 0 && isChanged) {
+                const SampleTree::NodeBall& node = nodes[i];
+                const bool stands = node.ball < SampleTree::kNeverUsed;
+                visitSiblings(level - 1, node.first, static_cast<int>(node.children),
+                              stands ? Parent{&mTree.levels()[level].samples[index], node.ball,
+                                              insides[lane] != 0}
+                                     : Parent{});
             }
         }
-        if (node.ball > 0.0f && (node.ball >= SampleTree::kNeverUsed || nearest < fadeEnd) &&
-            isChanged) {
-            const gather::Sample* before = mParentSample;
-            mParentSample = &nodes.samples[index];
-            for (std::uint32_t j = node.first; j < node.first + node.children; ++j) {
-                visitHierarchical(level - 1, j, &node, distances);
-            }
-            mParentSample = before;
+    }
+
+    void add(std::size_t level, std::uint32_t index, const Parent& parent, float start, float end,
+             bool isOwn) {
+        const gather::Sample& sample = mTree.levels()[level].samples[index];
+        const bool isLast = end >= kEverywhere;
+        CandidateList::Distances own{
+            glm::make_vec3(sample.position), std::max(sample.ball, gather::kRingLow * start),
+            isLast ? mRangeMm : std::min(mRangeMm, gather::kRingHigh * end)};
+        CandidateList::Distances parents;
+        if (parent.sample != nullptr) {
+            parents = {glm::make_vec3(parent.sample->position), isOwn ? 0.0f : parent.ball,
+                       (1.0f + mSettings.fade) * parent.ball};
         }
+        mFound->add({&sample, parent.sample, start, isLast ? 0.0f : end}, own, parents);
     }
 
     /// R_min^k of a sample; see raster_splat.vert.
@@ -193,12 +215,8 @@ private:
             }
         }
         if (low < high && distances.x < high && distances.y >= low) {
-            mFound->push_back({{&nodes.samples[index], nullptr, low, high},
-                               glm::make_vec3(node.position),
-                               0.0f,
-                               glm::vec3(0.0f),
-                               0.0f,
-                               true});
+            mFound->add({&nodes.samples[index], nullptr, low, high},
+                        {glm::make_vec3(node.position), low, high}, {});
         }
     }
 
@@ -208,9 +226,8 @@ private:
     int mLevels;
     int mLevel = 0;
     PointBounds mBounds;
-    const gather::Sample* mParentSample = nullptr;
     const TreeChange* mOnly = nullptr; ///< null: all samples
-    std::vector<Listed>* mFound = nullptr;
+    CandidateList* mFound = nullptr;
 };
 
 } // namespace celadon
