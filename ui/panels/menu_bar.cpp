@@ -3,6 +3,7 @@
 #include "renderer/scene/builtin.h"
 #include "ui/material_library.h"
 #include "ui/view_names.h"
+#include "ui/widgets/fields.h"
 
 #include <imgui.h>
 
@@ -12,11 +13,13 @@ namespace celadon::ui {
 
 namespace {
 
-void item(const char* label, const std::string& shortcut, const std::function<void()>& act,
+/// @param help what it does, shown when the cursor rests on it
+/// @return whether it was chosen
+bool item(const char* label, const std::string& shortcut, const char* help, bool isOn = false,
           bool enabled = true) {
-    if (ImGui::MenuItem(label, shortcut.c_str(), false, enabled)) {
-        act();
-    }
+    const bool isChosen = ImGui::MenuItem(label, shortcut.c_str(), isOn, enabled);
+    tooltip(help);
+    return isChosen;
 }
 
 /// Opens a menu by itself when a script asks for it, and closes it for another one.
@@ -48,35 +51,55 @@ void drawRecent(const char* label, const std::vector<std::string>& entries,
 void drawFileMenu(const LayoutContext& context) {
     const LayoutActions& actions = context.actions;
     const KeyMap& keys = context.preferences.keys;
-    item("Open model\xe2\x80\xa6", keys.text(Action::Open), actions.openModel);
+    const bool hasMaterial = context.session.activeDocument() != nullptr;
+    const bool hasWorld = context.session.hasWorld();
+    const auto act = [](const char* label, const std::string& shortcut, const char* help,
+                        const std::function<void()>& action, bool enabled = true) {
+        if (item(label, shortcut, help, false, enabled)) {
+            action();
+        }
+    };
+    act("Open model\xe2\x80\xa6", keys.text(Action::Open),
+        "glTF, OBJ, PLY, OFF or STL, to paint on", actions.openModel);
     if (ImGui::BeginMenu("Builtin models")) {
         for (const std::string& name : builtinNames()) {
-            if (ImGui::MenuItem(materialLabel(name).c_str())) {
+            if (item(materialLabel(name).c_str(), "", "A model that the program makes")) {
                 actions.open("builtin:" + name);
             }
         }
         ImGui::EndMenu();
     }
     drawRecent("Recent models", context.preferences.recentModels, actions.open);
-    item("Open material\xe2\x80\xa6", "", actions.openMaterial);
+    act("Open material\xe2\x80\xa6", "", "Puts a SubEdit material (.subedit.exr) on the model",
+        actions.openMaterial);
     drawRecent("Recent materials", context.preferences.recentMaterials, actions.putOn);
-    item("Open environment\xe2\x80\xa6", "", actions.openEnvironment);
+    act("Open environment\xe2\x80\xa6", "",
+        "Light from all around: a latitude-longitude map, .hdr or .exr", actions.openEnvironment);
     ImGui::Separator();
-    const bool hasMaterial = context.session.activeDocument() != nullptr;
-    item("Save material", keys.text(Action::Save), actions.save, hasMaterial);
-    item("Save material as\xe2\x80\xa6", keys.text(Action::SaveAs), actions.saveAs, hasMaterial);
+    act("Save material", keys.text(Action::Save),
+        "Every material with changes, into the file that it came from or was saved to",
+        actions.save, hasMaterial);
+    act("Save material as\xe2\x80\xa6", keys.text(Action::SaveAs),
+        "The material in hand, into another file", actions.saveAs, hasMaterial);
     ImGui::Separator();
-    const bool hasWorld = context.session.hasWorld();
-    item("Open deformers\xe2\x80\xa6", "", actions.openDeformers, hasWorld);
-    item("Save deformers\xe2\x80\xa6", "", actions.saveDeformers, hasWorld);
+    act("Open deformers\xe2\x80\xa6", "",
+        "Twists, lattices, handles and their keys from a .json file", actions.openDeformers,
+        hasWorld);
+    act("Save deformers\xe2\x80\xa6", "",
+        "A .json file, or a copy of the open glTF, that celadon render takes",
+        actions.saveDeformers, hasWorld);
     ImGui::Separator();
-    item("Export glTF and SubEdit\xe2\x80\xa6", "", actions.exportGltf, hasMaterial);
-    item("Save picture\xe2\x80\xa6", "", actions.savePicture, hasWorld);
-    if (ImGui::MenuItem("Save turntable\xe2\x80\xa6", nullptr, false, hasWorld)) {
+    act("Export glTF and SubEdit\xe2\x80\xa6", "",
+        "The model with its materials beside it, and what other programs read of them",
+        actions.exportGltf, hasMaterial);
+    act("Save picture\xe2\x80\xa6", "", "The picture in the viewport, as it is now",
+        actions.savePicture, hasWorld);
+    if (item("Save turntable\xe2\x80\xa6", "", "A whole turn around the model, a picture a frame",
+             false, hasWorld)) {
         actions.saveTurntable(context.state.turntableFrames);
     }
     ImGui::Separator();
-    item("Quit", keys.text(Action::Quit), actions.quit);
+    act("Quit", keys.text(Action::Quit), "Asks first where changes are not saved", actions.quit);
 }
 
 void drawEditMenu(const LayoutContext& context) {
@@ -85,28 +108,32 @@ void drawEditMenu(const LayoutContext& context) {
     const std::optional<std::string> undo = session.undoTitle();
     const std::optional<std::string> redo = session.redoTitle();
     const KeyMap& keys = context.preferences.keys;
-    const auto command = [&session](const char* label, const std::string& shortcut, Command action,
-                                    bool enabled) {
-        if (ImGui::MenuItem(label, shortcut.c_str(), false, enabled)) {
+    const auto command = [&session](const char* label, const std::string& shortcut,
+                                    const char* help, const Command& action, bool enabled) {
+        if (item(label, shortcut, help, false, enabled)) {
             session.perform(action);
         }
     };
-    command(("Undo " + undo.value_or("")).c_str(), keys.text(Action::Undo), {"edit.undo"},
+    command(("Undo " + undo.value_or("")).c_str(), keys.text(Action::Undo),
+            "Takes back the last change of a material or of the deformers", {"edit.undo"},
             undo.has_value());
-    command(("Redo " + redo.value_or("")).c_str(), keys.text(Action::Redo), {"edit.redo"},
-            redo.has_value());
+    command(("Redo " + redo.value_or("")).c_str(), keys.text(Action::Redo),
+            "Repeats what was taken back last", {"edit.redo"}, redo.has_value());
     ImGui::Separator();
     const bool has = document != nullptr;
-    command("Fill the selection", "", {"edit.fill"}, has);
-    command("Swap profiles", keys.text(Action::Swap), {"profile.swap"}, true);
+    command("Fill the selection", "", "Applies the brush's operator to all that is selected",
+            {"edit.fill"}, has);
+    command("Swap profiles", keys.text(Action::Swap), "Primary and secondary profile",
+            {"profile.swap"}, true);
     ImGui::Separator();
-    command("Select all", keys.text(Action::SelectAll), {"select.change", {{"what", "all"}}}, has);
-    command("Select nothing", keys.text(Action::SelectNone), {"select.change", {{"what", "none"}}},
-            has);
+    command("Select all", keys.text(Action::SelectAll), "Strokes and fills reach everything",
+            {"select.change", {{"what", "all"}}}, has);
+    command("Select nothing", keys.text(Action::SelectNone), "Strokes and fills reach nothing",
+            {"select.change", {{"what", "none"}}}, has);
     command("Invert the selection", keys.text(Action::SelectInvert),
-            {"select.change", {{"what", "invert"}}}, has);
+            "What was left out, and only that", {"select.change", {{"what", "invert"}}}, has);
     ImGui::Separator();
-    if (ImGui::MenuItem("Preferences\xe2\x80\xa6")) {
+    if (item("Preferences\xe2\x80\xa6", "", "Theme, scale, keys, journal, memory of the history")) {
         context.state.preferencesShown = true;
     }
 }
@@ -114,7 +141,7 @@ void drawEditMenu(const LayoutContext& context) {
 void drawViewMenu(const LayoutContext& context) {
     Session& session = context.session;
     for (const ViewName& name : viewNames()) {
-        if (ImGui::MenuItem(name.label, nullptr, session.view.mode.mode == name.mode)) {
+        if (item(name.label, "", name.explanation, session.view.mode.mode == name.mode)) {
             session.perform({"view.mode", {{"name", std::string(name.word)}}});
         }
     }
@@ -124,30 +151,36 @@ void drawViewMenu(const LayoutContext& context) {
         const char* label;
         Action action;
         const char* word;
+        const char* help;
     };
-    for (const auto& [label, action, word] :
-         {Side{"Front", Action::Front, "front"}, Side{"Right", Action::Right, "right"},
-          Side{"Top", Action::Top, "top"}}) {
-        if (ImGui::MenuItem(label, keys.text(action).c_str())) {
+    for (const auto& [label, action, word, help] :
+         {Side{"Front", Action::Front, "front", "Looks along -z"},
+          Side{"Right", Action::Right, "right", "Looks along -x"},
+          Side{"Top", Action::Top, "top", "Looks along -y"}}) {
+        if (item(label, keys.text(action), help)) {
             session.perform({"camera.view", {{"name", word}}});
         }
     }
-    if (ImGui::MenuItem("Frame the model", keys.text(Action::Frame).c_str())) {
+    if (item("Frame the model", keys.text(Action::Frame), "All of it, from where one looks")) {
         session.perform({"camera.frame", {{"aspect", session.aspect}}});
     }
-    if (ImGui::MenuItem("Play", keys.text(Action::Play).c_str(), session.motion.isPlaying,
-                        session.hasWorld() && session.mover().durationSeconds() > 0.0)) {
+    if (item("Play", keys.text(Action::Play), "The animation of the glTF, or keyed deformers",
+             session.motion.isPlaying,
+             session.hasWorld() && session.mover().durationSeconds() > 0.0)) {
         context.actions.togglePlay();
     }
-    if (ImGui::MenuItem("Turntable", keys.text(Action::Turntable).c_str(),
-                        context.state.isTurning)) {
+    if (item("Turntable", keys.text(Action::Turntable), "Turns around the model",
+             context.state.isTurning)) {
         context.actions.toggleTurntable();
     }
     ImGui::Separator();
-    if (ImGui::MenuItem("Panels", keys.text(Action::Panels).c_str(), context.state.panelsShown)) {
+    if (item("Panels", keys.text(Action::Panels), "Shows and hides all but the picture",
+             context.state.panelsShown)) {
         context.state.panelsShown = !context.state.panelsShown;
     }
-    item("Full screen", keys.text(Action::FullScreen), context.actions.toggleFullScreen);
+    if (item("Full screen", keys.text(Action::FullScreen), "The window fills the screen")) {
+        context.actions.toggleFullScreen();
+    }
 }
 
 } // namespace
@@ -169,7 +202,8 @@ void drawMenuBar(const LayoutContext& context) {
         ImGui::EndMenu();
     }
     if (beginMenu(context.state, "Help", "help")) {
-        if (ImGui::MenuItem("Shortcuts", context.preferences.keys.text(Action::Help).c_str())) {
+        if (item("Shortcuts", context.preferences.keys.text(Action::Help),
+                 "All keys and what the mouse does")) {
             context.state.helpShown = true;
         }
         ImGui::EndMenu();

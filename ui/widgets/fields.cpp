@@ -25,19 +25,15 @@ void label(const char* text, const char* help) {
 } // namespace
 
 void tooltip(const char* text) {
-    constexpr float kDelaySeconds = 0.35f;
     if (text == nullptr || *text == '\0' ||
         !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) {
         return;
     }
-    if (ImGui::GetCurrentContext() != nullptr) {
-        static_cast<void>(kDelaySeconds);
-        ImGui::BeginTooltip();
-        ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24.0f);
-        ImGui::TextUnformatted(text);
-        ImGui::PopTextWrapPos();
-        ImGui::EndTooltip();
-    }
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24.0f);
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
 }
 
 void heading(const char* text) {

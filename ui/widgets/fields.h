@@ -6,7 +6,7 @@
 /// was changed just now.
 namespace celadon::ui {
 
-/// Shows `text` when the last widget is hovered for a moment.
+/// Shows `text` while the cursor is on the last widget; null or empty: nothing.
 void tooltip(const char* text);
 void heading(const char* text);
 /// Muted, wrapped text.
