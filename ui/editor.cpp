@@ -469,8 +469,10 @@ void Editor::drawContents() {
 }
 
 void Editor::showProgress(const std::string& title, float done) {
-    if (mIsDrawing || !mLongEdit.tell(title, done)) {
-        return; // of what ends within a frame, a stroke, nothing can be shown
+    // Of what ends within a frame, a stroke, nothing can be shown; a recovery has its own steps, of
+    // which none may be left out.
+    if (mIsDrawing || mRecovery.isRunning() || !mLongEdit.tell(title, done)) {
+        return;
     }
     mWindow.waitEvents(0.0);
     if (const glm::ivec2 size = mWindow.sizePx(); size.x > 0 && size.y > 0) {
