@@ -180,7 +180,10 @@ MeanProfile::Point MeanProfile::at(double r) const {
 MeanProfileSums::MeanProfileSums(const MaterialMap& map, std::span<const float> effectiveRadiusMm)
     : mTilesX((map.width + kTileSize - 1) / kTileSize),
       mTilesY((map.height + kTileSize - 1) / kTileSize),
+      mSpansX((mTilesX + kSpanTiles - 1) / kSpanTiles),
       mTiles(static_cast<std::size_t>(mTilesX) * static_cast<std::size_t>(mTilesY)),
+      mSpanSums(static_cast<std::size_t>(mSpansX) * static_cast<std::size_t>(mTilesY),
+                std::vector<double>(kSamples)),
       mRowSums(static_cast<std::size_t>(mTilesY), std::vector<double>(kSamples)) {
     const TexelRect whole{0, 0, map.width, map.height};
     update(map, effectiveRadiusMm, {&whole, 1});
@@ -192,6 +195,7 @@ void MeanProfileSums::update(const MaterialMap& map, std::span<const float> effe
     CELADON_ASSERT(effectiveRadiusMm.size() ==
                    static_cast<std::size_t>(map.width) * static_cast<std::size_t>(map.height));
     std::vector<int> tiles;
+    std::vector<int> spans;
     std::vector<int> rows;
     for (const TexelRect& rect : rects) {
         if (rect.isEmpty()) {
@@ -201,6 +205,7 @@ void MeanProfileSums::update(const MaterialMap& map, std::span<const float> effe
             rows.push_back(y);
             for (int x = rect.x / kTileSize; x <= (rect.right() - 1) / kTileSize; ++x) {
                 tiles.push_back(y * mTilesX + x);
+                spans.push_back(y * mSpansX + x / kSpanTiles);
             }
         }
     }
@@ -209,9 +214,10 @@ void MeanProfileSums::update(const MaterialMap& map, std::span<const float> effe
         indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
     };
     dropRepeated(tiles);
+    dropRepeated(spans);
     dropRepeated(rows);
 
-    // Tiles, and rows of tiles, are summed in a fixed order: the same bits whatever the number of
+    // Tiles, spans and rows are summed in a fixed order: the same bits whatever the number of
     // cores.
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.size(), 4),
                       [&](const tbb::blocked_range<std::size_t>& range) {
@@ -224,16 +230,27 @@ void MeanProfileSums::update(const MaterialMap& map, std::span<const float> effe
                                       mTiles[static_cast<std::size_t>(tiles[i])]);
                           }
                       });
-    tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
-        std::vector<double>& sum = mRowSums[static_cast<std::size_t>(rows[i])];
+    const auto add = [](const auto& part, std::vector<double>& sum) {
+        for (std::size_t s = 0; s < kSamples; ++s) {
+            sum[s] += static_cast<double>(part[s]);
+        }
+    };
+    tbb::parallel_for(std::size_t{0}, spans.size(), [&](std::size_t i) {
+        std::vector<double>& sum = mSpanSums[static_cast<std::size_t>(spans[i])];
         sum.assign(kSamples, 0.0);
-        for (int x = 0; x < mTilesX; ++x) {
-            const Sum& tile = mTiles[static_cast<std::size_t>(rows[i] * mTilesX + x)];
-            for (std::size_t s = 0; s < kSamples; ++s) {
-                sum[s] += static_cast<double>(tile[s]);
-            }
+        const int row = spans[i] / mSpansX * mTilesX;
+        const int first = spans[i] % mSpansX * kSpanTiles;
+        for (int x = first; x < std::min(first + kSpanTiles, mTilesX); ++x) {
+            add(mTiles[static_cast<std::size_t>(row + x)], sum);
         }
     });
+    for (const int row : rows) {
+        std::vector<double>& sum = mRowSums[static_cast<std::size_t>(row)];
+        sum.assign(kSamples, 0.0);
+        for (int x = 0; x < mSpansX; ++x) {
+            add(mSpanSums[static_cast<std::size_t>(row * mSpansX + x)], sum);
+        }
+    }
 }
 
 TexelRect MeanProfileSums::tileRect(const MaterialMap& map, int tile) const {

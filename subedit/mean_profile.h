@@ -67,10 +67,13 @@ private:
     static void sumTile(const MaterialMap& map, std::span<const float> effectiveRadiusMm,
                         const TexelRect& rect, Sum& result);
 
+    static constexpr int kSpanTiles = 16;
     int mTilesX = 0;
     int mTilesY = 0;
-    std::vector<Sum> mTiles;                   ///< [tilesY][tilesX]
-    std::vector<std::vector<double>> mRowSums; ///< of each row of tiles, added in order
+    int mSpansX = 0;
+    std::vector<Sum> mTiles;                    ///< [tilesY][tilesX]
+    std::vector<std::vector<double>> mSpanSums; ///< of kSpanTiles tiles of a row, in order
+    std::vector<std::vector<double>> mRowSums;  ///< of each row of tiles, from its spans
 };
 
 /// Mean over all texels, from sums made anew.

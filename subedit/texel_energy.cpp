@@ -69,8 +69,13 @@ CELADON_MULTIVERSION void addUpChannels(const float* __restrict energy, int coun
 } // namespace
 
 TexelEnergy::TexelEnergy(int segments) : mSegments(segments) {
-    for (int i = 0; i < segments * 3; ++i) {
-        mIndex[static_cast<std::size_t>(i)] = static_cast<float>(i / 3);
+    // As far as whole vectors reach.
+    const int used = wholeVectors((segments + 1) * 3) + kLanes;
+    for (auto* values : {&mIndex, &mLog, &mValue, &mEnergy}) {
+        std::fill_n(values->begin(), used, 0.0f);
+    }
+    for (int k = 0; k < segments; ++k) {
+        std::fill_n(mIndex.begin() + 3 * k, 3, static_cast<float>(k));
     }
 }
 

@@ -81,10 +81,11 @@ private:
         ((kMaxSegments + 1) * 3 + kLanes - 1) / kLanes * kLanes + kLanes;
 
     int mSegments;
-    std::array<float, kRoom> mIndex{};
-    std::array<float, kRoom> mLog{}; ///< ln P
-    std::array<float, kRoom> mValue{};
-    std::array<float, kRoom> mEnergy{};
+    // Of these only what the segments need is ever set.
+    std::array<float, kRoom> mIndex;
+    std::array<float, kRoom> mLog; ///< ln P
+    std::array<float, kRoom> mValue;
+    std::array<float, kRoom> mEnergy;
     std::array<float, 3> mTotal{};
 };
 
