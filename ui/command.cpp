@@ -129,13 +129,19 @@ nlohmann::json toJson(glm::dvec3 v) {
     return nlohmann::json::array({v.x, v.y, v.z});
 }
 
-Dispatcher::Entry& Dispatcher::add(const std::string& name, const std::string& summary,
-                                   Handler handler, bool isRecorded) {
-    const auto [place, isNew] =
-        mEntries.emplace(name, Entry{summary, std::move(handler), isRecorded});
-    CELADON_ASSERT(isNew);
-    static_cast<void>(isNew);
-    return place->second;
+void Dispatcher::insert(const std::string& name, Entry entry) {
+    const bool added = mEntries.emplace(name, std::move(entry)).second;
+    CELADON_ASSERT(added);
+    static_cast<void>(added);
+}
+
+void Dispatcher::add(const std::string& name, const std::string& summary, Handler handler,
+                     bool isRecorded) {
+    insert(name, {summary, std::move(handler), isRecorded});
+}
+
+void Dispatcher::addEdit(const std::string& name, const std::string& summary, Handler handler) {
+    insert(name, {summary, std::move(handler), false, true});
 }
 
 void Dispatcher::execute(const Command& command) {

@@ -68,8 +68,11 @@ public:
     };
 
     /// @param name not registered before
-    Entry& add(const std::string& name, const std::string& summary, Handler handler,
-               bool isRecorded = true);
+    void add(const std::string& name, const std::string& summary, Handler handler,
+             bool isRecorded = true);
+    /// The same for what may change a whole map by what the hand holds: it is recorded as the edit
+    /// that it comes to, and may take longer than a frame. @param name not registered before
+    void addEdit(const std::string& name, const std::string& summary, Handler handler);
     /// @throws UsageError for an unknown command, one with an argument of the wrong type; whatever
     ///         the handler throws. Observers hear of commands that succeeded.
     void execute(const Command& command);
@@ -85,6 +88,8 @@ public:
     [[nodiscard]] const std::map<std::string, Entry>& entries() const { return mEntries; }
 
 private:
+    void insert(const std::string& name, Entry entry);
+
     std::map<std::string, Entry> mEntries;
     std::vector<std::function<void(const Command&)>> mObservers;
 };

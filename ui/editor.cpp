@@ -57,6 +57,7 @@ private:
     /// Turntable and motion go on with the clock, as fast as pictures come. @return whether they
     /// did
     bool play();
+    void composeFrame();
     void drawFrame();
     void drawContents();
     /// While an edit lasts: the window goes on. @throws GivenUp
@@ -483,8 +484,7 @@ void Editor::showProgress(const std::string& title, float done) {
     }
 }
 
-void Editor::drawFrame() {
-    const auto begin = std::chrono::steady_clock::now();
+void Editor::composeFrame() {
     mIsDrawing = true;
     mWindow.beginFrame(); // throws where the context is lost: the journal keeps what was done
     const ViewportRect rect = viewportRect(mWindow.sizePx(), mLayout, mWindow.scale());
@@ -493,8 +493,13 @@ void Editor::drawFrame() {
     handleInput();
     drawContents();
     mWindow.endFrame();
-    mWindow.present();
     mIsDrawing = false;
+}
+
+void Editor::drawFrame() {
+    const auto begin = std::chrono::steady_clock::now();
+    composeFrame();
+    mWindow.present();
     if (mWindow.context().isSoftware()) {
         const auto end = std::chrono::steady_clock::now();
         // Under a stroke or a drag the picture comes first; who types wants to see it at once.
@@ -504,10 +509,7 @@ void Editor::drawFrame() {
 }
 
 void Editor::takeScreenshot(const std::filesystem::path& file) {
-    mWindow.beginFrame();
-    handleInput();
-    drawContents();
-    mWindow.endFrame();
+    composeFrame();
     const glm::ivec2 size = mWindow.sizePx();
     const std::vector<unsigned char> pixels = mWindow.readBackBuffer();
     mWindow.present();

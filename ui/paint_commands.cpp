@@ -206,36 +206,24 @@ void addPaintCommands(Session& session) {
                          a.integerWithin("material", 0, std::max(0, session.materialCount() - 1));
                  });
     // These depend on what the hand holds: they are recorded as the edit that they come to.
-    commands
-        .add(
-            "edit.fill", "Applies the operator to everything that is selected",
-            [&session](const Arguments& a) {
-                session.edit(
-                    subedit::ApplyCommand{makeOperator(session.paint, a.flag("inverted", false))});
-            },
-            false)
-        .isLong = true;
-    commands
-        .add(
-            "select.change", "all, none, invert; grow, shrink, feather by mm along the surface",
-            [&session](const Arguments& a) {
-                session.edit(subedit::SelectCommand{selectionStep(a)});
-            },
-            false)
-        .isLong = true;
-    commands
-        .add(
-            "select.similar", "Texels whose profile is like that at a point: position and normal",
-            [&session](const Arguments& a) {
-                subedit::SelectSimilar similar;
-                similar.point.positionMm = glm::vec3(a.vector3("position"));
-                similar.point.normal = glm::vec3(a.vector3("normal"));
-                similar.tolerance = static_cast<float>(a.numberWithin("tolerance", 1e-3, 1.0));
-                session.edit(
-                    subedit::SelectCommand{similar, parseSelectMode(a.text("mode", "replace"))});
-            },
-            false)
-        .isLong = true;
+    commands.addEdit("edit.fill", "Applies the operator to everything that is selected",
+                     [&session](const Arguments& a) {
+                         session.edit(subedit::ApplyCommand{
+                             makeOperator(session.paint, a.flag("inverted", false))});
+                     });
+    commands.addEdit(
+        "select.change", "all, none, invert; grow, shrink, feather by mm along the surface",
+        [&session](const Arguments& a) { session.edit(subedit::SelectCommand{selectionStep(a)}); });
+    commands.addEdit(
+        "select.similar", "Texels whose profile is like that at a point: position and normal",
+        [&session](const Arguments& a) {
+            subedit::SelectSimilar similar;
+            similar.point.positionMm = glm::vec3(a.vector3("position"));
+            similar.point.normal = glm::vec3(a.vector3("normal"));
+            similar.tolerance = static_cast<float>(a.numberWithin("tolerance", 1e-3, 1.0));
+            session.edit(
+                subedit::SelectCommand{similar, parseSelectMode(a.text("mode", "replace"))});
+        });
     commands.add(
         "clone.source", "Where clone and pattern strokes take from: position, normal",
         [&session](const Arguments& a) {

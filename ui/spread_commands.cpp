@@ -100,27 +100,24 @@ void addScribbles(Session& session) {
         "scribble.change",
         "Similarity at which propagation falls to 1/e, and distance in mm (0: any)",
         [&session](const Arguments& a) { changePropagation(session.paint.propagation, a); });
-    commands
-        .add(
-            "scribble.apply",
-            "Spreads the operator, or with select the selection, from the scribbles, and takes "
-            "them away",
-            [&session](const Arguments& a) {
-                const subedit::Propagation& propagation = session.paint.propagation;
-                if (propagation.scribbles.empty()) {
-                    throw UsageError("propagation", "there are no scribbles",
-                                     "draw some over what you mean");
-                }
-                if (a.flag("select", false)) {
-                    session.edit(subedit::SelectCommand{propagation, subedit::SelectMode::Replace});
-                } else {
-                    session.edit(
-                        subedit::PropagateCommand{makeOperator(session.paint, false), propagation});
-                }
-                session.execute({"scribble.clear"}); // they have done their work
-            },
-            false)
-        .isLong = true;
+    commands.addEdit(
+        "scribble.apply",
+        "Spreads the operator, or with select the selection, from the scribbles, and takes "
+        "them away",
+        [&session](const Arguments& a) {
+            const subedit::Propagation& propagation = session.paint.propagation;
+            if (propagation.scribbles.empty()) {
+                throw UsageError("propagation", "there are no scribbles",
+                                 "draw some over what you mean");
+            }
+            if (a.flag("select", false)) {
+                session.edit(subedit::SelectCommand{propagation, subedit::SelectMode::Replace});
+            } else {
+                session.edit(
+                    subedit::PropagateCommand{makeOperator(session.paint, false), propagation});
+            }
+            session.execute({"scribble.clear"}); // they have done their work
+        });
 }
 
 void addStamps(Session& session) {

@@ -12,18 +12,19 @@ namespace celadon {
 /// it, eight at a time.
 class CandidateList {
 public:
+    static constexpr float kEverywhere = 1e18f; ///< a distance beyond all, mm; its square is finite
+
     /// Distances within which one counts, from least to most.
     struct Distances {
         glm::vec3 from{0.0f};
         float least = 0.0f;
-        float most = 1e18f; ///< its square is still finite
+        float most = kEverywhere;
     };
 
     void clear();
     /// @param own     from the sample
     /// @param parents from its parent, if that matters
     void add(const gather::Candidate& candidate, const Distances& own, const Distances& parents);
-    [[nodiscard]] std::size_t size() const { return mCandidates.size(); }
 
     /// Those that may count in a tile, in their order.
     void choose(const PointBounds& tile, std::vector<gather::Candidate>& chosen);

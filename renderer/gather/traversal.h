@@ -47,7 +47,7 @@ private:
     /// One number of each of four siblings. GCC and Clang alike; any x86-64 has such registers.
     using Four = float __attribute__((vector_size(16)));
     using FourMasks = std::int32_t __attribute__((vector_size(16)));
-    static constexpr float kEverywhere = 1e18f; ///< mm; its square is still finite
+    static constexpr float kEverywhere = CandidateList::kEverywhere;
 
     static Four four(float v) { return Four{v, v, v, v}; }
     static Four load(const float* p) {
