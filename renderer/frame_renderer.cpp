@@ -82,10 +82,10 @@ std::vector<double> directLightKey(const Camera& camera, std::span<const Light> 
 
 GpuScene::GpuScene(const World& theWorld, const FrameSettings& settings)
     : world(theWorld),
-      gpuWorld(theWorld),
+      gpuWorld(theWorld, settings.rasterizer),
       materials(theWorld.materials, settings.splatting.energy, settings.splatting.epsilon,
                 settings.exitFresnel, settings.splatting.rangeTable) {
-    shaders.define(sceneDefines(theWorld));
+    shaders.define(sceneDefines(theWorld, gpuWorld.rasterizer()));
 }
 
 struct FrameRenderer::Passes {
@@ -171,7 +171,12 @@ bool FrameRenderer::Passes::draw(const Camera& camera, std::span<const Light> ow
             view.bind(gpuWorld);
             view.refreshRadii();
         } else {
-            view.draw(gpuWorld, cameraView);
+            const auto places =
+                antialiasing ? antialiasing->placesToSee() : std::span<const glm::vec2>();
+            const TriangleRaster* const seen = view.draw(gpuWorld, cameraView, places);
+            if (seen != nullptr && antialiasing) {
+                antialiasing->take(*seen, view);
+            }
             drawnKey = std::move(key);
         }
     }

@@ -40,6 +40,7 @@ struct FrameSettings {
     bool specular = true;
     int coverageSamples = 4;
     int shadowSize = 1024;
+    Rasterizer rasterizer = Rasterizer::Auto;
     bool shadows = true;     ///< of highlights and of what falls on opaque parts
     bool layers = false;     ///< read back what --aov writes
     bool statistics = false; ///< render a warm-up frame, count samples, pairs and flux

@@ -297,7 +297,7 @@ void GpuDeformation::move(std::size_t index, const Pose& pose) {
                              static_cast<int>(pose.deformers.size()), flags));
     deform.set(1, GpuWorld::kVertexFloats);
     bindVertices(mesh, *source, mesh.matrices);
-    geometry.vertices.bindStorage(4);
+    geometry.bindVertices(4);
     mDeformers.bindStorage(5);
     orNothing(mesh.miters).bindStorage(6);
     mLatticeOffsets.bindStorage(7);
@@ -306,7 +306,7 @@ void GpuDeformation::move(std::size_t index, const Pose& pose) {
         mesh.isMirrored = pose.mirrored[index];
         mFlip.use();
         mFlip.set(0, mesh.triangles);
-        geometry.indices.bindStorage(0);
+        geometry.bindIndices(0);
         mFlip.dispatchList(mesh.triangles);
     }
     if (mesh.isFlat) {
@@ -314,8 +314,8 @@ void GpuDeformation::move(std::size_t index, const Pose& pose) {
         mFlatNormals.use();
         mFlatNormals.set(0, mesh.triangles);
         mFlatNormals.set(1, GpuWorld::kVertexFloats);
-        geometry.vertices.bindStorage(0);
-        geometry.indices.bindStorage(1);
+        geometry.bindVertices(0);
+        geometry.bindIndices(1);
         mFlatNormals.dispatchList(mesh.triangles);
     }
 }
@@ -331,7 +331,7 @@ void GpuDeformation::measure() {
             const GpuWorld::Geometry geometry = mTarget.geometry(m);
             mBoundsOf.set(0, mMeshes[m].vertices);
             mBoundsOf.set(2, glm::ivec2(task, geometry.scatters ? 1 : 0));
-            geometry.vertices.bindStorage(0);
+            geometry.bindVertices(0);
             mBoundsOf.dispatchList(mMeshes[m].vertices, kBoundedEach);
         }
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

@@ -6,7 +6,7 @@
 #include "include/far_ring.glsl"
 #include "include/material.glsl"
 #include "include/solve.glsl"
-#include "include/picture_group.glsl"
+#include "include/covered_group.glsl"
 
 layout(location = 0) uniform int level; // k, the finer one
 
@@ -32,7 +32,7 @@ Point fetchPoint(ivec2 pixel, int mip, out bool covered) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = coveredPixel();
     if (any(greaterThanEqual(pixel, imageSize(fine)))) {
         return;
     }

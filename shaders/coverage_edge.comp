@@ -3,8 +3,6 @@
 #include "include/coverage.glsl"
 #include "include/list_group.glsl"
 
-layout(binding = 4) uniform sampler2DMS sampleNormals;
-
 vec3 positionAt(vec2 pixel, float depth) {
     vec2 ndc = pixel / frame.frameSize.xy * 2.0 - 1.0;
     vec2 across = ndc / frame.projection.xy * (frame.eye.w > 0.5 ? depth : 1.0);
@@ -50,11 +48,11 @@ void main() {
     vec4 own = texelFetch(radiance, pixel, 0);
     vec4 result = vec4(0.0);
     for (int i = 0; i < sampleCount; ++i) {
-        vec2 s = texelFetch(samples, pixel, i).xy;
+        vec2 s = sampleAt(pixel, i);
         if (s.x <= 0.0) {
             continue;
         }
-        vec3 normal = texelFetch(sampleNormals, pixel, i).xyz;
+        vec3 normal = sampleNormal(pixel, i);
         vec3 position = positionAt(vec2(pixel) + 0.5 + jitterAndWeight.xy, s.x);
         vec4 found = searchAround(pixel, samplePlaces[i] + jitterAndWeight.xy, position, normal, s.y, pixelWidthMm(s.x));
         if (found.a > 0.0) {

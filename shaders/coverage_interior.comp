@@ -2,10 +2,10 @@
 // The others, at silhouettes and where the surface is seen so slantingly that its Fresnel term changes
 // within a pixel, are listed for coverage_edge.comp.
 #include "include/coverage.glsl"
-#include "include/picture_group.glsl"
+#include "include/covered_group.glsl"
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = coveredPixel();
     if (any(greaterThanEqual(pixel, imageSize(color)))) {
         return;
     }
@@ -17,7 +17,7 @@ void main() {
     float slack = pixelWidthMm(position.w) / max(abs(facing), 0.05);
     int same = 0;
     for (int i = 0; i < sampleCount; ++i) {
-        vec2 s = texelFetch(samples, pixel, i).xy;
+        vec2 s = sampleAt(pixel, i);
         bool alike = covered ? s.y == normal.w && abs(s.x - position.w) < slack : s.x <= 0.0;
         same += alike ? 1 : 0;
     }

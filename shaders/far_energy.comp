@@ -1,7 +1,7 @@
 // For accumulation.comp: ln of the far energy of each texel of a level of the splatting buffer.
 #include "include/far_ring.glsl"
 #include "include/material.glsl"
-#include "include/picture_group.glsl"
+#include "include/covered_group.glsl"
 
 layout(location = 0) uniform int level;
 
@@ -10,7 +10,7 @@ layout(binding = 0) uniform sampler2D surfaces;
 layout(rgba32f, binding = 0) uniform writeonly image2D result;
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = coveredPixel();
     if (any(greaterThanEqual(pixel, imageSize(result)))) {
         return;
     }

@@ -16,7 +16,10 @@ layout(location = 5) out vec4 outExtent;     // yz, zz, R_P, R_cut
 layout(location = 6) out vec4 outKept;       // energy kept inside R_cut per channel, shortest R_P
 
 void main() {
-    bool flip = !gl_FrontFacing && meshInfo.y != 0;
+    if (!seesSurface()) {
+        discard;
+    }
+    bool flip = !frontFacing && meshInfo.y != 0;
     vec3 n = facingNormal(flip);
     vec3 toLight = directionToLight(surface.position);
     float depth = -(light.view * vec4(surface.position, 1.0)).z;
@@ -29,7 +32,7 @@ void main() {
     float rayCosine = dot(-toLight, axis);
     float crossSection = width * width * rayCosine;
 
-    bool lit = m >= 0 && cosine > 0.0 && (gl_FrontFacing || meshInfo.y != 0);
+    bool lit = m >= 0 && cosine > 0.0 && (frontFacing || meshInfo.y != 0);
     vec3 flux = vec3(0.0);
     vec3 radii = vec3(0.0);
     vec3 kept = vec3(1.0);

@@ -3,7 +3,7 @@
 // material, whole; position and depth are the mean of those in the median's depth cluster, so that the
 // representative lies at the texel's center. Never a mean across a silhouette.
 #include "include/bounds.glsl"
-#include "include/picture_group.glsl"
+#include "include/covered_group.glsl"
 
 layout(location = 0) uniform int childLevel;
 layout(location = 1) uniform float clusterDepth; // of R_w
@@ -17,7 +17,7 @@ layout(rgba32f, binding = 1) uniform writeonly image2D parentNormal;
 layout(rgba32f, binding = 2) uniform writeonly image2D parentSurface;
 
 void main() {
-    ivec2 parent = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 parent = coveredPixel();
     if (any(greaterThanEqual(parent, imageSize(parentPosition)))) {
         return;
     }

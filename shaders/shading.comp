@@ -3,7 +3,7 @@
 #include "include/frame.glsl"
 #include "include/fresnel.glsl"
 #include "include/material.glsl"
-#include "include/picture_group.glsl"
+#include "include/covered_group.glsl"
 
 layout(binding = 0) uniform sampler2D positions;
 layout(binding = 1) uniform sampler2D normals;
@@ -15,7 +15,7 @@ layout(binding = 5) uniform sampler2D emissions;
 layout(rgba32f, binding = 0) uniform writeonly image2D radiance;
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = coveredPixel();
     if (any(greaterThanEqual(pixel, imageSize(radiance)))) {
         return;
     }

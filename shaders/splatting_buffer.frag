@@ -21,29 +21,22 @@ layout(binding = 1) uniform sampler2D metallicRoughnessTexture;
 layout(binding = 2) uniform sampler2D normalTexture;
 layout(binding = 3) uniform sampler2D emissionTexture; // sRGB
 
-vec2 textureCoordinate(int index) {
-    return textureCoordinate(index, surface.uv, surface.uv1);
-}
-
 // Tangent frame from the derivatives of position and texture coordinate.
 vec3 mappedNormal(vec3 n) {
-    vec2 uv = textureCoordinate(2);
-    vec3 px = dFdx(surface.position);
-    vec3 py = dFdy(surface.position);
-    vec2 tx = dFdx(uv);
-    vec2 ty = dFdy(uv);
-    float determinant = tx.x * ty.y - tx.y * ty.x;
+    mat2x3 positionStep = positionSteps();
+    mat2 step = textureSteps(2);
+    float determinant = step[0].x * step[1].y - step[0].y * step[1].x;
     if (abs(determinant) < 1e-20) {
         return n;
     }
-    vec3 t = (px * ty.y - py * tx.y) * sign(determinant);
-    vec3 b = (py * tx.x - px * ty.x) * sign(determinant);
+    vec3 t = (positionStep[0] * step[1].y - positionStep[1] * step[0].y) * sign(determinant);
+    vec3 b = (positionStep[1] * step[0].x - positionStep[0] * step[1].x) * sign(determinant);
     t -= n * dot(n, t);
     b -= n * dot(n, b);
     if (dot(t, t) < 1e-20 || dot(b, b) < 1e-20) {
         return n;
     }
-    vec3 m = texture(normalTexture, uv).xyz * 2.0 - 1.0;
+    vec3 m = lookTexture(normalTexture, 2).xyz * 2.0 - 1.0;
     m.xy *= lobe.w;
     m.y = -m.y; // v runs down: the map's green points up, against v
     vec3 mapped = normalize(t) * m.x + normalize(b) * m.y + n * m.z;
@@ -52,8 +45,11 @@ vec3 mappedNormal(vec3 n) {
 #endif
 
 void main() {
+    if (!seesSurface()) {
+        discard;
+    }
     // Both sides are seen: a back face shows the normal that faces the viewer.
-    vec3 n = facingNormal(!gl_FrontFacing);
+    vec3 n = facingNormal(!frontFacing);
     float depth = -(frame.view * vec4(surface.position, 1.0)).z;
     outNormal = vec4(n, float(meshInfo.z));
 #ifdef COVERAGE
@@ -82,12 +78,12 @@ void main() {
     vec3 specularNormal = textureSets.z >= 0 ? mappedNormal(n) : n;
     vec2 metallicRoughness = lobe.xy;
     if (textureSets.y >= 0) {
-        vec4 texel = texture(metallicRoughnessTexture, textureCoordinate(1));
+        vec4 texel = lookTexture(metallicRoughnessTexture, 1);
         metallicRoughness *= texel.bg;
     }
     vec4 base = baseColor * vertexColor();
     if (textureSets.x >= 0) {
-        base *= texture(baseColorTexture, textureCoordinate(0));
+        base *= lookTexture(baseColorTexture, 0);
     }
     if (m >= 0) {
         vec2 painted = materialLobe(m, surface.uv); // over what the model says
@@ -98,7 +94,7 @@ void main() {
     outBase = vec4(base.rgb, metallicRoughness.x);
     vec3 emitted = emission;
     if (textureSets.w >= 0) {
-        emitted *= texture(emissionTexture, textureCoordinate(3)).rgb;
+        emitted *= lookTexture(emissionTexture, 3).rgb;
     }
     outEmission = vec4(min(emitted, 65504.0), ior); // the largest half
     cutOut();

@@ -1,11 +1,11 @@
 // R_P of what a level of the splatting buffer shows, anew: all in it that changes where only profiles do.
 #include "include/material.glsl"
-#include "include/picture_group.glsl"
+#include "include/covered_group.glsl"
 
 layout(rgba32f, binding = 0) uniform image2D surfaces;
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = coveredPixel();
     if (any(greaterThanEqual(pixel, imageSize(surfaces)))) {
         return;
     }

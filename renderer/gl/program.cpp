@@ -152,6 +152,11 @@ void Program::dispatchList(int count, int each) const {
     }
 }
 
+void Program::dispatchGroups(int count, [[maybe_unused]] glm::ivec2 size) const {
+    CELADON_ASSERT(glm::ivec2(mGroup) == size);
+    glDispatchCompute(static_cast<GLuint>(count), 1, 1);
+}
+
 Program::Program(std::string_view label, std::span<const ShaderSource> stages) {
     std::vector<ShaderDiagnostic> diagnostics;
     std::optional<Program> program = build(label, stages, diagnostics);

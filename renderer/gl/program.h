@@ -46,6 +46,8 @@ public:
     /// as there are layers, or for each `each` elements of a list. Groups may reach beyond.
     void dispatchOver(glm::ivec2 size, int layers = 1) const;
     void dispatchList(int count, int each = 1) const;
+    /// So many work groups in a row. @param size that a group must have
+    void dispatchGroups(int count, glm::ivec2 size) const;
 
     void set(GLint location, float value) const { glProgramUniform1f(id(), location, value); }
     void set(GLint location, int value) const { glProgramUniform1i(id(), location, value); }

@@ -68,4 +68,9 @@ std::string ShaderLibrary::description() const {
     return mFolder ? fmt::format("'{}'", mFolder->string()) : "the shaders in the program";
 }
 
+bool ShaderLibrary::isDefined(std::string_view name) const {
+    return std::ranges::any_of(mDefines,
+                               [name](const ShaderDefine& define) { return define.name == name; });
+}
+
 } // namespace celadon::gl

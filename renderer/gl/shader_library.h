@@ -32,6 +32,8 @@ public:
     /// Options of every shader that is loaded from here on, besides its own: what a scene fixes.
     void define(std::vector<ShaderDefine> defines) { mDefines = std::move(defines); }
     [[nodiscard]] const std::vector<ShaderDefine>& defines() const { return mDefines; }
+    /// By define().
+    [[nodiscard]] bool isDefined(std::string_view name) const;
 
     /// Null when there is no such file. @throws InputError when it is there and cannot be read
     [[nodiscard]] std::optional<std::string> text(std::string_view path) const;

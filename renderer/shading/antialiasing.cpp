@@ -2,7 +2,7 @@
 
 #include "renderer/gl/debug.h"
 #include "renderer/gl/pass_state.h"
-#include "renderer/splatting/irradiance_buffer.h"
+#include "renderer/surface_draw.h"
 
 #include <algorithm>
 #include <array>
@@ -13,6 +13,10 @@ namespace celadon {
 namespace {
 
 constexpr int kMostPlaces = 16; ///< as coverage.glsl has it
+
+/// Of the processor's samples: the grid turned such that every row and column has one.
+constexpr std::array kProcessorPlaces{glm::vec2(-0.125f, -0.375f), glm::vec2(0.375f, -0.125f),
+                                      glm::vec2(-0.375f, 0.125f), glm::vec2(0.125f, 0.375f)};
 
 /// Additive recurrence on the plastic number: well spread for any count of draws. In (-1/2, 1/2);
 /// the first is 0.
@@ -46,31 +50,77 @@ std::vector<glm::vec2> samplePlaces(const gl::Framebuffer& framebuffer, int coun
 
 Antialiasing::Antialiasing(const gl::ShaderLibrary& shaders, const SplattingBuffer& view,
                            int samples)
-    : mSamples(gl::Texture::makeMultisampled("coverage: samples", GL_RG32F, view.size(),
-                                             samplesOfADraw(samples))),
-      mNormals(gl::Texture::makeMultisampled("coverage: normals", GL_RGBA16F, view.size(),
-                                             mSamples.samples())),
-      mDepthBuffer(gl::Texture::makeMultisampled("coverage: depth buffer", GL_DEPTH_COMPONENT32F,
-                                                 view.size(), mSamples.samples())),
+    : mByProcessor(shaders.isDefined("VISIBLE_TRIANGLES")),
       mColor(gl::Texture::make2d("color", GL_RGBA32F, view.size())),
-      mDraws((samples + mSamples.samples() - 1) / mSamples.samples()),
-      mSampleFramebuffer("coverage", {{&mSamples}, {&mNormals}}, gl::Attachment{&mDepthBuffer}),
       mFrameBlock("jittered frame", sizeof(blocks::FrameBlock), gl::BufferUse::Update),
       mEdges("edge pixels",
              sizeof(GLuint) * (4 + static_cast<std::size_t>(view.size().x) *
                                        static_cast<std::size_t>(view.size().y)),
              gl::BufferUse::Update),
-      mSample("coverage", shaders, {"surface.vert", "splatting_buffer.frag"},
-              {{"CAMERA", "1"}, {"COVERAGE", "1"}}),
       mInterior("coverage inside", shaders, {"coverage_interior.comp"}),
       mEdge("coverage at edges", shaders, {"coverage_edge.comp"}) {
+    makeSamples(view, samples);
+    if (!mByProcessor) {
+        mSample = gl::Program("coverage", shaders, {"surface.vert", "splatting_buffer.frag"},
+                              {{"CAMERA", "1"}, {"COVERAGE", "1"}});
+    }
+    const auto ofADraw = static_cast<int>(mPlaces.size());
+    mDraws = (samples + ofADraw - 1) / ofADraw;
+}
+
+void Antialiasing::makeSamples(const SplattingBuffer& view, int samples) {
+    const glm::ivec2 size = view.size();
+    if (mByProcessor) {
+        mTiles.emplace(view.paddedSize(), 1);
+        mPlaces.assign(kProcessorPlaces.begin(), kProcessorPlaces.end());
+        const auto layers = static_cast<int>(mPlaces.size());
+        mTriangles = gl::Texture::makeArray("coverage: triangles", GL_R32UI, size, layers);
+        mDepths = gl::Texture::makeArray("coverage: depths", GL_R32F, size, layers);
+        return;
+    }
+    mSamples =
+        gl::Texture::makeMultisampled("coverage: samples", GL_RG32F, size, samplesOfADraw(samples));
+    mNormals =
+        gl::Texture::makeMultisampled("coverage: normals", GL_RGBA16F, size, mSamples.samples());
+    mDepthBuffer = gl::Texture::makeMultisampled("coverage: depth buffer", GL_DEPTH_COMPONENT32F,
+                                                 size, mSamples.samples());
+    mSampleFramebuffer =
+        gl::Framebuffer("coverage", {{&mSamples}, {&mNormals}}, gl::Attachment{&mDepthBuffer});
     mPlaces = samplePlaces(mSampleFramebuffer, std::min(mSamples.samples(), kMostPlaces));
 }
 
-void Antialiasing::drawSamples(const GpuWorld& world, const CameraView& jittered,
+void Antialiasing::findSamples(const GpuWorld& world, const CameraView& jittered,
                                const SplattingBuffer& view) {
     mFrameBlock.write(std::array{makeFrameBlock(jittered, view.size(), view.paddedSize())});
     mFrameBlock.bindUniform(blocks::kFrame);
+    if (!mByProcessor) {
+        drawSamples(world);
+        return;
+    }
+    RasterView seen = boundRasterView(world, SeenFrom::Camera, view.size()).value();
+    seen.places = mPlaces;
+    const TriangleRaster& raster = world.rasterize(seen);
+    upload(raster.triangles(), raster.centerDepths(), view);
+}
+
+std::span<const glm::vec2> Antialiasing::placesToSee() const {
+    return mByProcessor ? std::span<const glm::vec2>(mPlaces) : std::span<const glm::vec2>();
+}
+
+void Antialiasing::take(const TriangleRaster& seen, const SplattingBuffer& view) {
+    upload(seen.triangles().subspan(seen.pixels()), seen.centerDepths().subspan(seen.pixels()),
+           view);
+    mSamplesOf = view.drawn();
+}
+
+void Antialiasing::upload(std::span<const std::uint32_t> triangles,
+                          std::span<const float> centerDepths, const SplattingBuffer& view) {
+    mTriangles.upload(0, triangles);
+    mDepths.upload(0, centerDepths);
+    mTiles->find(triangles, view.size(), view.coveredTiles());
+}
+
+void Antialiasing::drawSamples(const GpuWorld& world) {
     gl::PassState state = gl::PassState::covering(mSampleFramebuffer);
     state.depthTest = gl::DepthTest::Greater;
     state.depthWrite = true;
@@ -78,19 +128,28 @@ void Antialiasing::drawSamples(const GpuWorld& world, const CameraView& jittered
     mSampleFramebuffer.clearColor(0, glm::vec4(0.0f));
     mSampleFramebuffer.clearColor(1, glm::vec4(0.0f));
     mSampleFramebuffer.clearDepth(0.0f);
-    world.draw(mSample, false);
+    mSample->use();
+    for (std::size_t mesh = 0; mesh < world.meshCount(); ++mesh) {
+        world.setMesh(*mSample, mesh, false);
+        world.drawMesh(mesh);
+    }
+    GpuWorld::unbindLooks();
 }
 
-void Antialiasing::resolveDraw(const SplattingBuffer& view, const gl::Texture& radiance,
-                               glm::dvec2 offset) {
+void Antialiasing::resolveDraw(const GpuWorld& world, const SplattingBuffer& view,
+                               const gl::Texture& radiance, glm::dvec2 offset) {
     mEdges.write(std::array<GLuint, 4>{0, 1, 1, 0});
     mEdges.bindStorage(0);
     mEdges.bind(GL_DISPATCH_INDIRECT_BUFFER);
     view.positions().bind(0);
     view.normals().bind(1);
     radiance.bind(2);
-    mSamples.bind(3);
-    mNormals.bind(4);
+    (mByProcessor ? mTriangles : mSamples).bind(3);
+    (mByProcessor ? mDepths : mNormals).bind(4);
+    if (mByProcessor) {
+        world.bindTriangles();
+        world.places().bindStorage(1);
+    }
     mColor.bindImage(0, 0, GL_READ_WRITE);
     const auto samples = static_cast<int>(mPlaces.size());
     for (const gl::Program* program : {&mInterior, &mEdge}) {
@@ -100,7 +159,11 @@ void Antialiasing::resolveDraw(const SplattingBuffer& view, const gl::Texture& r
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     mInterior.use();
-    mInterior.dispatchOver(view.size());
+    if (mTiles) {
+        mTiles->dispatch(mInterior, 0);
+    } else {
+        mInterior.dispatchOver(view.size());
+    }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
                     GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     mEdge.use();
@@ -116,11 +179,11 @@ void Antialiasing::resolve(const GpuWorld& world, const Camera& camera, const Sp
     for (int i = 0; i < mDraws; ++i) {
         // The picture moves against the draw's offset from the pixel's center.
         const glm::dvec2 offset = jitter(i);
-        if (mDraws > 1 || mSamplesOf != view.drawn()) {
-            drawSamples(world, makeCameraView(camera, view.size().x, view.size().y, -offset), view);
-            mSamplesOf = view.drawn();
+        if (i > 0 || mSamplesOf != view.drawn()) {
+            findSamples(world, makeCameraView(camera, view.size().x, view.size().y, -offset), view);
+            mSamplesOf = i == 0 ? view.drawn() : 0;
         }
-        resolveDraw(view, radiance, offset);
+        resolveDraw(world, view, radiance, offset);
     }
 }
 

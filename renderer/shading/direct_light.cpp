@@ -18,7 +18,7 @@ DirectLight::DirectLight(const gl::ShaderLibrary& shaders, const SplattingBuffer
       mReachFramebuffer("direct radiance and reach", {{&mRadiance}, {&mReach}},
                         gl::Attachment{&view.depth()}),
       mNoAttributes("no attributes"),
-      mShadow("shadow map", shaders, {"surface.vert", "shadow_map.frag"}),
+      mShadow("shadow map", shaders, SeenFrom::Light, SurfaceDraw::Shows::Depth, "shadow_map.frag"),
       mShade("direct light", shaders, {"fullscreen.vert", "direct_light.frag"}),
       mReflect("environment reflection", shaders,
                {"fullscreen.vert", "environment_reflection.frag"}) {}
@@ -48,13 +48,12 @@ void DirectLight::shade(std::span<const Light> lights, const GpuWorld& world,
         const LightViews::Scope whereUsed = mLightViews.whereUsed(lightView);
         mLightViews.bind(lightView);
         gl::PassState shadowState = gl::PassState::covering(mShadowFramebuffer);
-        shadowState.depthTest = gl::DepthTest::Greater;
         shadowState.depthWrite = true;
         shadowState.depthClamp = true;
         shadowState.apply();
         mShadowFramebuffer.clearDepth(0.0f);
         if (shadows) {
-            world.draw(mShadow, false);
+            mShadow.draw(world, shadowState, mShadowMap);
         }
         shadeFrom(view, specular, mLightViews.lightOf(lightView) >= firstAround);
     }

@@ -8,6 +8,7 @@
 #include "renderer/shading/environment_reflection.h"
 #include "renderer/splatting/light_views.h"
 #include "renderer/splatting/splatting_buffer.h"
+#include "renderer/surface_draw.h"
 
 #include <cstddef>
 #include <span>
@@ -44,7 +45,8 @@ private:
     gl::Texture mReach; ///< RG32F, see direct_light.frag
     gl::Framebuffer mFramebuffer, mReachFramebuffer;
     gl::VertexArray mNoAttributes;
-    gl::Program mShadow, mShade, mReflect;
+    SurfaceDraw mShadow;
+    gl::Program mShade, mReflect;
 
     void shadeFrom(const SplattingBuffer& view, bool specular, bool isPartOfReflection);
     void reflect(const SplattingBuffer& view, const Surroundings& around);

@@ -13,6 +13,7 @@ ShadingPass::ShadingPass(const gl::ShaderLibrary& shaders, int materialCount,
 void ShadingPass::shade(const SplattingBuffer& view, const gl::Texture& exitance,
                         const gl::Texture& direct) {
     const gl::DebugGroup group("shading");
+    mRadiance.clear(0, glm::vec4(0.0f));
     mProgram.use();
     view.positions().bind(0);
     view.normals().bind(1);
@@ -22,7 +23,7 @@ void ShadingPass::shade(const SplattingBuffer& view, const gl::Texture& exitance
     view.emissions().bind(5);
     mRadiance.bindImage(0, 0, GL_WRITE_ONLY);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-    mProgram.dispatchOver(mRadiance.size2d());
+    view.dispatchCovered(mProgram, 0);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 

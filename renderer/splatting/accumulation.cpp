@@ -29,7 +29,7 @@ void Accumulation::accumulate(const gl::Texture& exitance, const SplattingBuffer
         mFarEnergy.set(0, level + 1);
         view.surfaces().bind(0);
         farEnergies.bindImage(0, 0, GL_WRITE_ONLY);
-        mFarEnergy.dispatchOver(farEnergies.size2d());
+        view.dispatchCovered(mFarEnergy, level + 1);
 
         mProgram.use();
         mProgram.set(0, level);
@@ -40,7 +40,7 @@ void Accumulation::accumulate(const gl::Texture& exitance, const SplattingBuffer
         farEnergies.bind(4);
         exitance.bindImage(0, level, GL_READ_WRITE);
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-        mProgram.dispatchOver(exitance.size2d(level));
+        view.dispatchCovered(mProgram, level);
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }

@@ -15,8 +15,8 @@ IrradianceBuffer::IrradianceBuffer(const gl::ShaderLibrary& shaders, int materia
     : mSize(size),
       mLevels(levels),
       mPaddedSize(celadon::paddedSize(glm::ivec2(size), levels).x),
-      mDraw("irradiance buffer", shaders, {"surface.vert", "irradiance_buffer.frag"},
-            {{"MATERIAL_COUNT", std::to_string(materialCount)}}),
+      mDraw("irradiance buffer", shaders, SeenFrom::Light, SurfaceDraw::Shows::Geometry,
+            "irradiance_buffer.frag", {{"MATERIAL_COUNT", std::to_string(materialCount)}}),
       mRadii("irradiance radii", shaders, {"irradiance_radii.comp"},
              {{"MATERIAL_COUNT", std::to_string(materialCount)}}),
       mMip("irradiance mip", shaders, {"irradiance_mip.comp"}),
@@ -40,7 +40,6 @@ void IrradianceBuffer::draw(const GpuWorld& world) {
     gl::PassState state;
     state.framebuffer = &mFramebuffer;
     state.viewport = glm::ivec4(0, 0, mSize, mSize); // the padding stays background
-    state.depthTest = gl::DepthTest::Greater;
     state.depthWrite = true;
     state.depthClamp = true;
     state.apply();
@@ -48,7 +47,7 @@ void IrradianceBuffer::draw(const GpuWorld& world) {
         mFramebuffer.clearColor(i, i == 3 ? glm::vec4(0.0f, 0.0f, -1.0f, 0.0f) : glm::vec4(0.0f));
     }
     mFramebuffer.clearDepth(0.0f);
-    world.draw(mDraw, false);
+    mDraw.draw(world, state, mDepth);
 }
 
 void IrradianceBuffer::refreshRadii(const gl::Texture& surfaces) {

@@ -6,6 +6,7 @@
 #include "renderer/gl/texture.h"
 #include "renderer/gpu_materials.h"
 #include "renderer/gpu_world.h"
+#include "renderer/surface_draw.h"
 
 /// Step 1, light side (Chen et al. 2012, section 4; DESIGN 3.1): what one light view sees, as a
 /// pyramid of patches. Level 0 has N x N texels; sizes are padded to a multiple of 2^(levels - 1),
@@ -48,7 +49,8 @@ private:
     gl::Texture mDepth;
     gl::Texture mDepthRanges; ///< RG32F, all levels: least and greatest depth in mm
     gl::Framebuffer mFramebuffer;
-    gl::Program mDraw, mRadii, mMip, mRangeMip;
+    SurfaceDraw mDraw;
+    gl::Program mRadii, mMip, mRangeMip;
 };
 
 /// The size that halves without a rest down to the last of `levels`.

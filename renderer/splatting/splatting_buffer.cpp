@@ -35,12 +35,15 @@ SplattingBuffer::SplattingBuffer(const gl::ShaderLibrary& shaders, int materialC
       mLevels(levels),
       mPaddedSize(celadon::paddedSize(size, levels)),
       mFrameBlock("frame", sizeof(blocks::FrameBlock), gl::BufferUse::Update),
-      mDraw("splatting buffer", shaders, {"surface.vert", "splatting_buffer.frag"},
-            {{"CAMERA", "1"}, {"MATERIAL_COUNT", std::to_string(materialCount)}}),
+      mDraw("splatting buffer", shaders, SeenFrom::Camera, SurfaceDraw::Shows::Looks,
+            "splatting_buffer.frag", {{"MATERIAL_COUNT", std::to_string(materialCount)}}),
       mRadii("surface radii", shaders, {"surface_radii.comp"},
              {{"MATERIAL_COUNT", std::to_string(materialCount)}}),
       mMip("median mip", shaders, {"median_mip.comp"}),
       mTileRange("tile range", shaders, {"tile_range.comp"}) {
+    if (shaders.isDefined("VISIBLE_TRIANGLES")) {
+        mTiles.emplace(mPaddedSize, levels);
+    }
     // Powers of two, so that every level is covered by the next.
     const glm::uvec2 tiles((mPaddedSize + kTilePx - 1) / kTilePx);
     const glm::ivec2 tileSize(std::bit_ceil(tiles.x), std::bit_ceil(tiles.y));
@@ -61,22 +64,26 @@ SplattingBuffer::SplattingBuffer(const gl::ShaderLibrary& shaders, int materialC
     mFramebuffer = gl::Framebuffer("splatting buffer", colors, gl::Attachment{&mDepth});
 }
 
-void SplattingBuffer::draw(const GpuWorld& world, const CameraView& view) {
+const TriangleRaster* SplattingBuffer::draw(const GpuWorld& world, const CameraView& view,
+                                            std::span<const glm::vec2> morePlaces) {
     const gl::DebugGroup group("splatting buffer");
     mFrameBlock.write(std::array{makeFrameBlock(view, mSize, mPaddedSize)});
     bind(world);
     gl::PassState state;
     state.framebuffer = &mFramebuffer;
     state.viewport = glm::ivec4(0, 0, mSize); // the padding stays background
-    state.depthTest = gl::DepthTest::Greater;
     state.depthWrite = true;
     state.apply();
     for (int i = 0; i < kTargets; ++i) {
         mFramebuffer.clearColor(i, i == 2 ? glm::vec4(0.0f, 0.0f, -1.0f, 0.0f) : glm::vec4(0.0f));
     }
     mFramebuffer.clearDepth(0.0f);
-    world.draw(mDraw, true);
+    const TriangleRaster* const seen = mDraw.draw(world, state, mDepth, morePlaces);
+    if (seen != nullptr) {
+        mTiles->find(seen->triangles().first(seen->pixels()), mSize);
+    }
     ++mDrawn;
+    return seen;
 }
 
 void SplattingBuffer::bind(const GpuWorld& world) const {
@@ -84,12 +91,20 @@ void SplattingBuffer::bind(const GpuWorld& world) const {
     world.bindBounds();
 }
 
+void SplattingBuffer::dispatchCovered(const gl::Program& program, int level) const {
+    if (mTiles) {
+        mTiles->dispatch(program, level);
+    } else {
+        program.dispatchOver(mTargets[0].size2d(level));
+    }
+}
+
 void SplattingBuffer::refreshRadii() {
     const gl::DebugGroup group("surface radii");
     mRadii.use();
     for (int level = 0; level < mLevels; ++level) {
         mTargets[2].bindImage(0, level, GL_READ_WRITE);
-        mRadii.dispatchOver(mTargets[2].size2d(level));
+        dispatchCovered(mRadii, level);
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
@@ -105,7 +120,14 @@ void SplattingBuffer::buildMips(double clusterDepth) {
             mTargets[i].bindImage(static_cast<GLuint>(i), level, GL_WRITE_ONLY);
         }
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-        mMip.dispatchOver(mTargets[0].size2d(level));
+        if (mTiles) {
+            mTiles->dispatchTouched(mMip, level);
+        } else {
+            mMip.dispatchOver(mTargets[0].size2d(level));
+        }
+    }
+    if (mTiles) {
+        mTiles->touchedDone();
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }

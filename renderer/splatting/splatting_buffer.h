@@ -1,5 +1,6 @@
 #pragma once
 
+#include "renderer/covered_tiles.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/program.h"
@@ -8,8 +9,11 @@
 #include "renderer/gpu_materials.h"
 #include "renderer/gpu_world.h"
 #include "renderer/scene/camera.h"
+#include "renderer/surface_draw.h"
 
 #include <cstdint>
+#include <optional>
+#include <span>
 
 /// Step 1, camera side (Chen et al. 2012, section 4; DESIGN 3.3): the visible surface at frame
 /// resolution, with median mips. Rows run from the bottom. Sizes are padded as in IrradianceBuffer.
@@ -22,13 +26,20 @@ public:
                     int levels);
 
     /// Draws level 0 with all looks and binds the frame block and the bounds.
-    void draw(const GpuWorld& world, const CameraView& view);
+    /// @param morePlaces @return as SurfaceDraw::draw
+    const TriangleRaster* draw(const GpuWorld& world, const CameraView& view,
+                               std::span<const glm::vec2> morePlaces = {});
     /// The frame block of the last draw() and the bounds, as draw() leaves them.
     void bind(const GpuWorld& world) const;
     /// After profiles were edited, and nothing else changed: R_P, in every level there is.
     void refreshRadii();
     /// Another number after each draw().
     [[nodiscard]] std::uint64_t drawn() const { return mDrawn; }
+    /// Runs a compute shader (include/covered_group.glsl), which is in use, for each pixel of a
+    /// level where something is seen, and for others.
+    void dispatchCovered(const gl::Program& program, int level) const;
+    /// These pixels; null where the driver draws.
+    [[nodiscard]] const CoveredTiles* coveredTiles() const { return mTiles ? &*mTiles : nullptr; }
     /// Levels 1 and up. @param clusterDepth depths that count as one surface, in bounding sphere
     /// diameters
     void buildMips(double clusterDepth);
@@ -61,7 +72,9 @@ private:
     gl::Texture mTileRanges;
     gl::Framebuffer mFramebuffer;
     gl::Buffer mFrameBlock;
-    gl::Program mDraw, mRadii, mMip, mTileRange;
+    SurfaceDraw mDraw;
+    std::optional<CoveredTiles> mTiles; ///< with Rasterizer::Processor
+    gl::Program mRadii, mMip, mTileRange;
     std::uint64_t mDrawn = 0;
 };
 

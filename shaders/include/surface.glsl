@@ -1,14 +1,4 @@
 // What the passes that draw the surface know of a fragment, and of its mesh; and whether there is surface at all.
-in SurfacePoint {
-    vec3 position;
-    vec3 normal;
-    vec2 uv;
-    vec2 uv1;
-#ifdef VERTEX_COLORS
-    vec4 color;
-#endif
-} surface;
-
 layout(location = 0) uniform ivec4 meshInfo; // scattering material or -1, double sided, mesh id + 1, 0
 layout(location = 1) uniform vec4 baseColor;
 layout(location = 4) uniform ivec4 textureSets; // uv set of base color, metallic-roughness, normal, emission: -1 none
@@ -19,6 +9,20 @@ layout(binding = 0) uniform sampler2D baseColorTexture; // sRGB
 
 vec2 textureCoordinate(int index, vec2 uv, vec2 uv1) {
     return (textureTransforms[index] * vec3(textureSets[index] == 1 ? uv1 : uv, 1.0)).xy;
+}
+
+#include "include/drawn_surface.glsl"
+#include "include/seen_surface.glsl"
+
+// A texture of the look, where textureSets has it.
+vec4 lookTexture(sampler2D image, int index) {
+    vec2 place = textureCoordinate(index, surface.uv, surface.uv1);
+#ifdef VISIBLE_TRIANGLES
+    mat2 steps = textureSteps(index);
+    return textureGrad(image, place, steps[0], steps[1]);
+#else
+    return texture(image, place);
+#endif
 }
 
 #ifdef CUT_OUT
@@ -44,7 +48,7 @@ vec4 vertexColor() {
 
 // Last in main: derivatives taken after a discard are undefined.
 void cutOut() {
-#ifdef CUT_OUT
+#if defined(CUT_OUT) && !defined(VISIBLE_TRIANGLES)
     if (alphaCutoff >= 0.0 && !isThere(surface.uv, surface.uv1, vertexColor().a)) {
         discard;
     }
@@ -56,9 +60,8 @@ vec3 facingNormal(bool flip) {
     vec3 n = surface.normal;
     float squared = dot(n, n);
     if (!(squared > 1e-12)) {
-        n = cross(dFdx(surface.position), dFdy(surface.position));
+        n = faceNormal();
         squared = max(dot(n, n), 1e-30);
-        n *= gl_FrontFacing ? 1.0 : -1.0;
     }
     n *= inversesqrt(squared);
     return flip ? -n : n;

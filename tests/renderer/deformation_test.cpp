@@ -55,9 +55,9 @@ protected:
         double worstCosine = 1.0;
         for (std::size_t m = 0; m < rest.meshes.size(); ++m) {
             const DeformedMesh mesh = deformedMesh(rest, m, pose);
-            const std::vector<float> drawn = gpu.geometry(m).vertices.read<float>();
+            const std::vector<float> drawn = gpu.geometry(m).readVertices();
             ASSERT_EQ(drawn.size(), mesh.positions.size() * GpuWorld::kVertexFloats);
-            EXPECT_EQ(gpu.geometry(m).indices.read<std::uint32_t>(),
+            EXPECT_EQ(gpu.geometry(m).readIndices(),
                       expected.meshes[m].mesh.indices);
             for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
                 const float* const v = &drawn[i * GpuWorld::kVertexFloats];

@@ -190,6 +190,7 @@ TEST_F(NoReadBack, InAFrameOfADeformedShape) {
     for (const SplatBackendKind backend : {SplatBackendKind::Raster, SplatBackendKind::Tiled}) {
         FrameSettings settings = test::smallFrame({48, 36}, 32, Scheme::Hierarchical);
         settings.splatting.backend = backend;
+        settings.rasterizer = Rasterizer::Driver; // as where there is a GPU
         settings.specular = true;
         const auto scene = std::make_shared<const GpuScene>(mWorld, settings);
         FrameRenderer renderer(context(), scene, settings);

@@ -1,0 +1,182 @@
+// The processor finds the same triangles as the driver's rasterizer, and every pass shades them the
+// same: with textures, cut-outs, vertex colors, several meshes, from close by and from lights.
+#include "tests/support/frames.h"
+#include "tests/support/gl_fixture.h"
+#include "tests/support/materials.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace celadon {
+namespace {
+
+using test::makeWorld;
+
+constexpr glm::ivec2 kSize(160, 120);
+constexpr double kEdges = 0.005; ///< of the pixels
+
+class RasterizerTest : public test::GlTest {
+protected:
+    RenderedFrame frameBy(Rasterizer rasterizer, const World& world, const Camera& camera,
+                          const std::vector<Light>& lights) {
+        FrameSettings settings = test::smallFrame(kSize, 128, Scheme::Hierarchical);
+        settings.specular = true;
+        settings.coverageSamples = 8; // two draws
+        settings.shadowSize = 256;
+        settings.rasterizer = rasterizer;
+        return test::renderFrame(context(), world, settings, camera, lights);
+    }
+
+    /// Pixels may differ where the two snap a corner to different sides of a sample: few, and at
+    /// edges. All others agree to the precision of float.
+    /// @param fraction of pixels that may differ
+    void expectTheSame(const World& world, const Camera& camera, const std::vector<Light>& lights,
+                       const std::string& what, double fraction = kEdges) {
+        SCOPED_TRACE(what);
+        const FloatImage driver = frameBy(Rasterizer::Driver, world, camera, lights).image;
+        const FloatImage processor = frameBy(Rasterizer::Processor, world, camera, lights).image;
+        ASSERT_EQ(driver.channels, processor.channels);
+        const double pixels = kSize.x * kSize.y;
+        for (std::size_t c = 0; c < driver.channels.size(); ++c) {
+            const auto channel = static_cast<int>(c);
+            double greatest = 0.0;
+            int seen = 0;
+            for (int i = 0; i < kSize.x * kSize.y; ++i) {
+                const double value =
+                    std::abs(static_cast<double>(driver.at(i % kSize.x, i / kSize.x, channel)));
+                greatest = std::max(greatest, value);
+                seen += value > 0.0 ? 1 : 0;
+            }
+            int differing = 0;
+            double farthest = 0.0;
+            for (int i = 0; i < kSize.x * kSize.y; ++i) {
+                const auto a = static_cast<double>(driver.at(i % kSize.x, i / kSize.x, channel));
+                const auto b = static_cast<double>(processor.at(i % kSize.x, i / kSize.x, channel));
+                differing += std::abs(a - b) > 2e-3 * greatest ? 1 : 0;
+                farthest = std::max(farthest, std::abs(a - b));
+            }
+            EXPECT_LT(differing, fraction * pixels) << driver.channels[c];
+            if (driver.channels[c] == "A") {
+                EXPECT_GT(seen, 0.02 * pixels);
+                EXPECT_LE(farthest, fraction > kEdges ? 0.376 : 0.251); // samples of eight
+            }
+        }
+    }
+};
+
+MaterialPointer wax() {
+    return test::makeMaterial("wax", 8, 24, 12.0f, [](int x, int y) {
+        return test::ProfileRecipe{.albedo = glm::dvec3(0.5 + 0.05 * ((x + y) % 8))};
+    });
+}
+
+TEST_F(RasterizerTest, SameFramesOfBuiltins) {
+    for (const char* const model : {"builtin:vase", "builtin:sphere"}) {
+        const World world = makeWorld(model, wax());
+        Camera camera = test::defaultCamera(world, kSize);
+        expectTheSame(world, camera, {test::frontLight(), test::backLight()}, model);
+        camera.orthographicHeight = 80.0;
+        expectTheSame(world, camera, {test::frontLight()}, fmt::format("{}, parallel", model));
+        // From inside, a light there as well: triangles behind the eye, cube faces.
+        camera.orthographicHeight.reset();
+        camera.eye = world.scatteringSphere.center + glm::dvec3(1.0, 2.0, 0.5);
+        camera.fovYDegrees = 100.0;
+        expectTheSame(world, camera,
+                      {test::pointLight(world.scatteringSphere.center + glm::dvec3(3.0, 0.0, 1.0))},
+                      fmt::format("{}, from inside", model));
+    }
+}
+
+TEST_F(RasterizerTest, SameFramesOfTexturedModels) {
+    if (!test::modelFolder()) {
+        GTEST_SKIP() << "CELADON_MODELS is not set";
+    }
+    for (const char* const model :
+         {"gltf/BoxVertexColors.glb", "gltf/LightsPunctualLamp/LightsPunctualLamp.gltf",
+          "gltf/SimpleInstancing.glb", "gltf/CesiumMan.glb", "mesh/spot_uv.obj"}) {
+        if (!std::filesystem::exists(*test::modelFolder() / model)) {
+            continue;
+        }
+        World world = makeWorld(model, wax());
+        for (WorldMesh& mesh : world.meshes) {
+            mesh.scattering = 0;
+        }
+        const Camera camera = test::defaultCamera(world, kSize);
+        expectTheSame(world, camera, {test::frontLight()}, model);
+    }
+}
+
+/// A wall of fine tiles with a texture, a normal map and holes, before a smaller one.
+World walls() {
+    Scene scene;
+    scene.name = "walls";
+    scene.millimetersPerUnit = 1.0;
+    scene.materials.resize(2);
+    for (int k = 0; k < 2; ++k) {
+        Image image;
+        image.name = k == 0 ? "picture" : "normals";
+        image.width = image.height = 16;
+        for (int i = 0; i < 256; ++i) {
+            const int x = i % 16;
+            const int y = i / 16;
+            const auto part = [](int t) { return static_cast<std::uint8_t>(17 * t); };
+            const bool isHole = k == 0 && (x / 4 + y / 4) % 3 == 0;
+            image.rgba.insert(image.rgba.end(),
+                              {k == 0 ? part(x) : std::uint8_t(100 + 3 * x),
+                               k == 0 ? part(y) : std::uint8_t(150 - 3 * y),
+                               std::uint8_t(k == 0 ? 90 : 230), std::uint8_t(isHole ? 0 : 255)});
+        }
+        scene.images.push_back(std::move(image));
+    }
+    scene.materials[0].baseColorTexture.image = 0;
+    scene.materials[0].alphaCutoff = 0.5f;
+    scene.materials[0].normalTexture.image = 1;
+    scene.materials[0].roughness = 0.3f;
+    scene.materials[0].doubleSided = true;
+    for (int m = 0; m < 2; ++m) {
+        Mesh mesh;
+        mesh.name = "wall";
+        mesh.material = m;
+        const float half = m == 0 ? 50.0f : 30.0f;
+        constexpr std::uint32_t kCells = 9;
+        for (std::uint32_t i = 0; i < (kCells + 1) * (kCells + 1); ++i) {
+            const glm::vec2 uv = glm::vec2(i % (kCells + 1), i / (kCells + 1)) / float(kCells);
+            mesh.positions.emplace_back((2.0f * uv - 1.0f) * half, m == 0 ? 0.0f : -15.0f);
+            mesh.normals.emplace_back(0, 0, 1);
+            mesh.uvs.push_back(uv);
+        }
+        for (std::uint32_t y = 0; y < kCells; ++y) {
+            for (std::uint32_t x = 0; x < kCells; ++x) {
+                const std::uint32_t a = y * (kCells + 1) + x;
+                const std::uint32_t b = a + kCells + 1;
+                mesh.indices.insert(mesh.indices.end(), {a, a + 1, b + 1, a, b + 1, b});
+            }
+        }
+        scene.meshes.push_back(std::move(mesh));
+    }
+    const std::vector<MaterialPointer> named{nullptr, test::shortRangeMaterial()};
+    return buildWorld(std::move(scene), nullptr, named, nullptr, {});
+}
+
+TEST_F(RasterizerTest, SameFramesOfCutOutsAndNormalMaps) {
+    // Along a straight rim a whole row of samples may lie on it: drivers interpolate and filter in
+    // few bits there.
+    constexpr double kRims = 0.025;
+    const World world = walls();
+    Camera camera;
+    camera.at = glm::dvec3(0.0);
+    camera.eye = {70.0, 40.0, 130.0};
+    expectTheSame(world, camera, {test::directionalLight({0.2, -0.3, -1.0})}, "from the front",
+                  kRims);
+    camera.eye = {90.0, 5.0, 25.0};
+    expectTheSame(world, camera, {test::directionalLight({0.2, -0.3, -1.0})}, "slantingly", kRims);
+    camera.eye = {-20.0, -30.0, -140.0};
+    expectTheSame(world, camera, {test::directionalLight({0.2, -0.3, 1.0})}, "from behind", kRims);
+}
+
+} // namespace
+} // namespace celadon
