@@ -1,5 +1,7 @@
 #include "ui/viewport.h"
 
+#include "ui/preparing_notice.h"
+
 #include <imgui.h>
 
 #include <algorithm>
@@ -17,6 +19,9 @@ bool isPartial(const std::vector<std::uint8_t>& weights) {
 
 /// A pause this long is rest: finer pictures begin.
 constexpr std::chrono::milliseconds kRest{50};
+
+/// A first picture that comes sooner needs no words.
+constexpr std::chrono::milliseconds kPatience{500};
 
 } // namespace
 
@@ -160,12 +165,18 @@ bool Viewport::update(Session& session) {
         mWorldRevision = session.worldRevision();
         mWorker.setWorld(session.sharedWorld(), session.takeRenderedMaterials());
         mInFlight.reset();
+        mWorldSince = Clock::now();
+        mPreparing = preparingText(session);
         mShownRevision = 0;
         mHasSelection = false;
         mLadder.forget();
         mKnownSize = glm::ivec2(0);
     }
-    const bool redraw = takePicture(session);
+    bool redraw = takePicture(session);
+    if (mSaysPreparing != isPreparing()) {
+        mSaysPreparing = !mSaysPreparing;
+        redraw = true;
+    }
     const std::uint64_t revision = session.pictureRevision();
     if (mSeenRevision != revision) {
         mSeenRevision = revision;
@@ -209,6 +220,10 @@ bool Viewport::update(Session& session) {
 }
 
 double Viewport::secondsToNextStep() const {
+    if (mInFlight && mShownRevision == 0 && !mSaysPreparing) {
+        const auto left = std::chrono::duration<double>(mWorldSince + kPatience - Clock::now());
+        return std::max(left.count(), 0.001);
+    }
     if (mInFlight || mShownRevision == 0) {
         return -1.0;
     }
@@ -241,9 +256,16 @@ void drawOver(const gl::Texture& texture, const ViewportRect& rect, ImDrawList& 
                   high, {0.0f, 1.0f}, {1.0f, 0.0f});
 }
 
+bool Viewport::isPreparing() const {
+    return mInFlight && mShownRevision == 0 && Clock::now() - mWorldSince >= kPatience;
+}
+
 void Viewport::draw(ImDrawList& list) const {
     if (mTexture) {
         drawOver(mTexture, mRect, list);
+    }
+    if (mSaysPreparing) {
+        drawPreparing(list, mRect, mPreparing);
     }
 }
 

@@ -65,6 +65,8 @@ public:
         double totalMs = 0.0;
     };
     [[nodiscard]] const std::deque<Timing>& timings() const { return mTimings; }
+    /// The first picture of what was opened is long in coming: draw() says so.
+    [[nodiscard]] bool isPreparing() const;
     [[nodiscard]] bool isWaiting() const {
         return mInFlight && mInFlight->purpose != Purpose::Rehearsal;
     }
@@ -102,6 +104,9 @@ private:
     glm::ivec2 mKnownSize{0};
     bool mHasSelection = false; ///< part of a material is selected: it is shown
     std::uint64_t mWorldRevision = 0;
+    Clock::time_point mWorldSince;
+    std::string mPreparing;      ///< what takes the time
+    bool mSaysPreparing = false; ///< on screen
     std::uint64_t mSeenRevision = 0;
     int mFailures = 0; ///< of pictures of that revision
     std::optional<InFlight> mInFlight;
