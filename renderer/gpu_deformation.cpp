@@ -14,8 +14,8 @@ constexpr int kBoundedEach = 32; ///< vertices of an invocation of `vertex_bound
 
 /// `include/deformer.glsl`
 struct DeformerEntry {
-    glm::ivec4 kind;
-    glm::ivec4 lattice;
+    glm::vec4 kind;
+    glm::vec4 lattice;
     glm::vec4 center;
     glm::vec4 amount;
     glm::vec4 bounds;
@@ -32,6 +32,11 @@ struct BoundsEntry {
 /// `include/vertex_pose.glsl`
 enum MeshFlags { kHasMap = 1, kHasMiters = 2, kIsHandled = 4 };
 constexpr std::size_t kHandledFloats = 9;
+
+/// Texture units of `deform.comp` and `handles.comp`.
+constexpr GLuint kMatricesUnit = 0;
+constexpr GLuint kDeformersUnit = 1, kNodesUnit = 1;
+constexpr GLuint kVertexNodesUnit = 2;
 
 /// `handles.comp`
 struct NodeEntry {
@@ -55,15 +60,18 @@ std::vector<float> interleaved(const std::vector<glm::vec3>& positions,
 }
 
 /// Values of which there are more or fewer from pose to pose; the buffer grows where it must.
+/// @return whether it is another one
 template<typename T>
-void send(const char* label, const std::vector<T>& values, gl::Buffer& buffer) {
+bool send(const char* label, const std::vector<T>& values, gl::Buffer& buffer) {
     const std::size_t bytes = std::max<std::size_t>(values.size(), 4) * sizeof(T);
-    if (buffer.sizeBytes() < bytes) {
+    const bool grows = buffer.sizeBytes() < bytes;
+    if (grows) {
         buffer = gl::Buffer(label, 2 * bytes, gl::BufferUse::Update);
     }
     if (!values.empty()) {
         buffer.write(values);
     }
+    return grows;
 }
 
 BoundingSphere toSphere(const glm::vec4& v) {
@@ -76,9 +84,9 @@ DeformerEntry entryOf(const Deformer& deformer, const RestBox& box, std::size_t 
     constexpr double kEverywhere = 1e30;
     const int axis = deformer.axis;
     DeformerEntry entry{};
-    entry.kind = {static_cast<int>(deformer.kind), axis, 0, 0};
+    entry.kind = glm::vec4(static_cast<float>(deformer.kind), axis, 0.0f, 0.0f);
     if (deformer.kind == Deformer::Kind::Lattice) {
-        entry.lattice = {deformer.lattice.size, static_cast<int>(firstOffset)};
+        entry.lattice = glm::vec4(deformer.lattice.size, firstOffset);
         entry.center = glm::vec4(1.0 / (box.high - box.low), 0.0);
         entry.amount = glm::vec4(box.low, 0.0);
         return entry;
@@ -171,6 +179,7 @@ void GpuDeformation::addMesh(const WorldMesh& source) {
     result.matrices =
         gl::Buffer::of(named("matrices"), std::vector<glm::mat4>(matrices, glm::mat4(1.0f)),
                        gl::BufferUse::Update);
+    result.matrixTexels = gl::BufferTexture(named("matrices"), GL_RGBA32F, result.matrices);
     mMeshes.push_back(std::move(result));
 }
 
@@ -206,16 +215,18 @@ void GpuDeformation::sendDeformers(const Pose& pose) {
             offsets.emplace_back(offset, 0.0);
         }
     }
-    send("deformers", entries, mDeformers);
+    if (send("deformers", entries, mDeformers)) {
+        mDeformerTexels = gl::BufferTexture("deformers", GL_RGBA32F, mDeformers);
+    }
     send("lattice offsets", offsets, mLatticeOffsets);
 }
 
 void GpuDeformation::bindVertices(const MovedMesh& mesh, const gl::Buffer& source,
-                                  const gl::Buffer& matrices) const {
+                                  const gl::BufferTexture& matrices) const {
     source.bindStorage(0);
     orNothing(mesh.map).bindStorage(1);
     orNothing(mesh.influences).bindStorage(2);
-    matrices.bindStorage(3);
+    matrices.bind(kMatricesUnit);
 }
 
 const gl::Buffer& GpuDeformation::orNothing(const gl::Buffer& buffer) const {
@@ -232,7 +243,9 @@ void GpuDeformation::sendNodes(const NodePose& pose) {
                            {glm::vec4(node.linear[0], 0.0), glm::vec4(node.linear[1], 0.0),
                             glm::vec4(node.linear[2], 0.0)}});
     }
-    send("nodes", entries, mNodes);
+    if (send("nodes", entries, mNodes)) {
+        mNodeTexels = gl::BufferTexture("nodes", GL_RGBA32F, mNodes);
+    }
     if (mNodeBinding == pose.binding) {
         return;
     }
@@ -240,10 +253,12 @@ void GpuDeformation::sendNodes(const NodePose& pose) {
     for (std::size_t m = 0; m < mMeshes.size(); ++m) {
         MovedMesh& mesh = mMeshes[m];
         mesh.vertexNodes = gl::Buffer::of("vertices of nodes", pose.binding->vertices[m]);
+        mesh.vertexNodeTexels = gl::BufferTexture("vertices of nodes", GL_R32UI, mesh.vertexNodes);
         std::vector<glm::mat4> matrices(pose.binding->restPoses[m].matrices.begin(),
                                         pose.binding->restPoses[m].matrices.end());
         matrices.resize(std::max<std::size_t>(matrices.size(), 1), glm::mat4(1.0f));
         mesh.restMatrices = gl::Buffer::of("rest matrices", matrices);
+        mesh.restMatrixTexels = gl::BufferTexture("rest matrices", GL_RGBA32F, mesh.restMatrices);
         mesh.handled = gl::Buffer("handled", static_cast<std::size_t>(mesh.vertices) *
                                                  kHandledFloats * sizeof(float));
     }
@@ -252,11 +267,11 @@ void GpuDeformation::sendNodes(const NodePose& pose) {
 const gl::Buffer& GpuDeformation::moveByNodes(MovedMesh& mesh, const gl::Buffer& bound, int flags) {
     mHandles.use();
     mHandles.set(0, glm::ivec4(mesh.vertices, mesh.influenceCount, 0, flags));
-    bindVertices(mesh, bound, mesh.restMatrices);
+    bindVertices(mesh, bound, mesh.restMatrixTexels);
     mesh.handled.bindStorage(4);
-    mNodes.bindStorage(5);
+    mNodeTexels.bind(kNodesUnit);
     orNothing(mesh.miters).bindStorage(6);
-    mesh.vertexNodes.bindStorage(7);
+    mesh.vertexNodeTexels.bind(kVertexNodesUnit);
     mHandles.dispatchList(mesh.vertices);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     return mesh.handled;
@@ -296,9 +311,9 @@ void GpuDeformation::move(std::size_t index, const Pose& pose) {
     deform.set(0, glm::ivec4(mesh.vertices, mesh.influenceCount,
                              static_cast<int>(pose.deformers.size()), flags));
     deform.set(1, GpuWorld::kVertexFloats);
-    bindVertices(mesh, *source, mesh.matrices);
+    bindVertices(mesh, *source, mesh.matrixTexels);
     geometry.bindVertices(4);
-    mDeformers.bindStorage(5);
+    mDeformerTexels.bind(kDeformersUnit);
     orNothing(mesh.miters).bindStorage(6);
     mLatticeOffsets.bindStorage(7);
     deform.dispatchList(mesh.vertices);

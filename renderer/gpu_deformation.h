@@ -1,6 +1,7 @@
 #pragma once
 
 #include "renderer/gl/buffer.h"
+#include "renderer/gl/buffer_texture.h"
 #include "renderer/gl/program.h"
 #include "renderer/gl/shader_library.h"
 #include "renderer/gpu_world.h"
@@ -47,6 +48,7 @@ private:
         gl::Buffer morphed; ///< the same with morph targets on; none without
         gl::Buffer map, influences, matrices, miters;
         gl::Buffer vertexNodes, restMatrices;
+        gl::BufferTexture matrixTexels, vertexNodeTexels, restMatrixTexels; ///< of these buffers
         gl::Buffer
             handled; ///< position, normal and miter of each drawn vertex; none without handles
         std::vector<Target> targets;
@@ -65,7 +67,7 @@ private:
     [[nodiscard]] const gl::Buffer& moveByNodes(MovedMesh& mesh, const gl::Buffer& bound,
                                                 int flags);
     void bindVertices(const MovedMesh& mesh, const gl::Buffer& source,
-                      const gl::Buffer& matrices) const;
+                      const gl::BufferTexture& matrices) const;
     [[nodiscard]] const gl::Buffer& orNothing(const gl::Buffer& buffer) const;
     void sendDeformers(const Pose& pose);
     void sendNodes(const NodePose& pose);
@@ -76,6 +78,7 @@ private:
     gl::Program mMorph, mHandles, mDeform, mDeformLattices, mFlatNormals, mFlip, mBoundsOf;
     gl::Buffer mNothing; ///< stands for a buffer that a mesh does not have
     gl::Buffer mDeformers, mLatticeOffsets, mNodes;
+    gl::BufferTexture mDeformerTexels, mNodeTexels;
     std::shared_ptr<const NodeBinding> mNodeBinding; ///< that the meshes have
     gl::Buffer mBounds;
     std::vector<MovedMesh> mMeshes;

@@ -8,7 +8,6 @@ layout(location = 0) uniform ivec4 counts; // vertices; influences each, 0: one 
 layout(location = 1) uniform int stride;   // floats of a drawn vertex
 
 layout(std430, binding = 4) restrict writeonly buffer Drawn { float drawn[]; };
-layout(std430, binding = 5) restrict readonly buffer Deformers { Deformer deformers[]; };
 layout(std430, binding = 6) restrict readonly buffer Miters { float miters[]; };
 // (7: include/lattice.glsl)
 
@@ -31,7 +30,7 @@ void main() {
         miter = length(miter) * directionOr(carrier * miter, vec3(0.0));
     }
     for (int k = 0; k < counts.z; ++k) {
-        deform(deformers[k], position, normal, miter);
+        deform(deformerAt(k), position, normal, miter);
     }
     for (int k = 0; k < 3; ++k) {
         drawn[i * stride + k] = position[k];

@@ -5,44 +5,51 @@
 
 layout(location = 0) uniform ivec4 counts; // vertices; influences each, 0: one matrix for all; 0; flags
 
-struct VertexNodes {
-    float at[3]; // at rest, mm
-    uint nodes[13]; // kNoNode beyond those that it follows
-};
 struct Node {
-    vec4 place; // at rest, mm
-    vec4 to;
-    vec4 linear[3];
+    vec3 place; // at rest, mm
+    vec3 to;
+    mat3 linear;
 };
 
 layout(std430, binding = 4) restrict writeonly buffer Moved { float moved[]; }; // 9 each
-layout(std430, binding = 5) restrict readonly buffer Nodes { Node nodes[]; };
 layout(std430, binding = 6) restrict readonly buffer Miters { float miters[]; };
-layout(std430, binding = 7) restrict readonly buffer Vertices { VertexNodes vertices[]; };
+layout(binding = 1) uniform samplerBuffer nodes;        // as Node, a texel a column
+layout(binding = 2) uniform usamplerBuffer vertexNodes; // place at rest, mm; 13 nodes, kNoNode beyond those that it follows
 
 const uint kNoNode = 0xffffffffu;
 
-mat3 linearOf(Node node) {
-    return mat3(node.linear[0].xyz, node.linear[1].xyz, node.linear[2].xyz);
+uint nodeOf(int vertex, int k) {
+    return texelFetch(vertexNodes, 16 * vertex + 3 + k).r;
+}
+
+vec3 placeOf(int vertex) {
+    return uintBitsToFloat(uvec3(texelFetch(vertexNodes, 16 * vertex).r, texelFetch(vertexNodes, 16 * vertex + 1).r,
+                                 texelFetch(vertexNodes, 16 * vertex + 2).r));
+}
+
+Node nodeAt(uint index) {
+    int at = 5 * int(index);
+    return Node(texelFetch(nodes, at).xyz, texelFetch(nodes, at + 1).xyz,
+                mat3(texelFetch(nodes, at + 2).xyz, texelFetch(nodes, at + 3).xyz, texelFetch(nodes, at + 4).xyz));
 }
 
 // How far a vertex moves, and the derivative of where it goes by its place at rest.
-vec3 followNodes(VertexNodes vertex, vec3 p, out mat3 jacobian) {
+vec3 followNodes(int vertex, vec3 p, out mat3 jacobian) {
     jacobian = mat3(1.0);
-    if (vertex.nodes[0] == kNoNode) {
+    if (nodeOf(vertex, 0) == kNoNode) {
         return vec3(0.0);
     }
-    Node first = nodes[vertex.nodes[0]];
-    vec3 firstMoves = first.to.xyz - p + linearOf(first) * (p - first.place.xyz);
-    if (vertex.nodes[1] == kNoNode) {
-        jacobian = linearOf(first);
+    Node first = nodeAt(nodeOf(vertex, 0));
+    vec3 firstMoves = first.to - p + first.linear * (p - first.place);
+    if (nodeOf(vertex, 1) == kNoNode) {
+        jacobian = first.linear;
         return firstMoves;
     }
     int last = 1;
-    while (last < 12 && vertex.nodes[last + 1] != kNoNode) {
+    while (last < 12 && nodeOf(vertex, last + 1) != kNoNode) {
         ++last;
     }
-    vec3 toLast = p - nodes[vertex.nodes[last]].place.xyz;
+    vec3 toLast = p - nodeAt(nodeOf(vertex, last)).place;
     float D2 = dot(toLast, toLast);
     float sum = 0.0;
     vec3 sumSlope = vec3(0.0);
@@ -50,21 +57,21 @@ vec3 followNodes(VertexNodes vertex, vec3 p, out mat3 jacobian) {
     mat3 linear = mat3(0.0);
     mat3 swept = mat3(0.0);
     for (int k = 0; k < last; ++k) {
-        Node node = nodes[vertex.nodes[k]];
-        vec3 to = p - node.place.xyz;
+        Node node = nodeAt(nodeOf(vertex, k));
+        vec3 to = p - node.place;
         float d2 = dot(to, to);
         float remains = 1.0 - d2 / D2;
         float w = remains * remains;
         vec3 slope = 4.0 * remains / D2 * (d2 / D2 * toLast - to);
-        vec3 x = node.to.xyz - p + linearOf(node) * to;
+        vec3 x = node.to - p + node.linear * to;
         sum += w;
         sumSlope += slope;
         moves += w * x;
-        linear += w * linearOf(node);
+        linear += w * node.linear;
         swept += outerProduct(x, slope);
     }
     if (!(sum > 1e-9)) {
-        jacobian = linearOf(first);
+        jacobian = first.linear;
         return firstMoves;
     }
     moves /= sum;
@@ -81,9 +88,9 @@ void main() {
     vec3 position = vec3(bound[6 * source], bound[6 * source + 1], bound[6 * source + 2]);
     vec3 normal = vec3(bound[6 * source + 3], bound[6 * source + 4], bound[6 * source + 5]);
     vec3 miter = (counts.w & kHasMiters) != 0 ? vec3(miters[3 * i], miters[3 * i + 1], miters[3 * i + 2]) : vec3(0.0);
-    vec3 p = vec3(vertices[i].at[0], vertices[i].at[1], vertices[i].at[2]);
     mat3 jacobian;
-    vec3 moves = followNodes(vertices[i], p, jacobian);
+    vec3 p = placeOf(i);
+    vec3 moves = followNodes(i, p, jacobian);
     mat4 toRest = matrixOf(source, counts.y);
     mat3 bend = mat3(toRest);
     if (determinant(bend) != 0.0) {

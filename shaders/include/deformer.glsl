@@ -4,12 +4,20 @@
 #include "include/lattice.glsl"
 
 struct Deformer {
-    ivec4 kind;    // 0 twist, 1 bend, 2 taper, 3 wave, 4 inflate, 5 lattice, 6 nothing; axis, 0, 0
-    ivec4 lattice; // control points along x, y, z; the first of its offsets
+    vec4 kind;     // 0 twist, 1 bend, 2 taper, 3 wave, 4 inflate, 5 lattice, 6 nothing; axis, 0, 0
+    vec4 lattice;  // control points along x, y, z; the first of its offsets
     vec4 center;   // of the rest box, mm; lattice: 1 / its extent
     vec4 amount;   // radians per mm, scale less 1 per mm, or mm; wave: radians per mm; low end, 0; lattice: low corner
     vec4 bounds;   // of the distance from the low end within which it grows, mm; what counts as its end, mm; 0
 };
+
+layout(binding = 1) uniform samplerBuffer deformers; // as Deformer, a texel a member
+
+Deformer deformerAt(int index) {
+    int at = 5 * index;
+    return Deformer(texelFetch(deformers, at), texelFetch(deformers, at + 1), texelFetch(deformers, at + 2),
+                    texelFetch(deformers, at + 3), texelFetch(deformers, at + 4));
+}
 
 const int kTwist = 0;
 const int kBend = 1;
@@ -35,7 +43,7 @@ vec3 toAxis(int axis, vec3 v) {
 
 // p and center with the axis first; the Jacobian as well.
 vec3 mapAlongAxis(Deformer deformer, vec3 center, vec3 p, out mat3 jacobian) {
-    int kind = deformer.kind.x;
+    int kind = int(deformer.kind.x);
     float distance = p.x - deformer.amount.z;
     float s = clamp(distance, deformer.bounds.x, deformer.bounds.y);
     float beyond = distance - s;
@@ -80,7 +88,7 @@ vec3 mapAlongAxis(Deformer deformer, vec3 center, vec3 p, out mat3 jacobian) {
 }
 
 void deform(Deformer deformer, inout vec3 position, inout vec3 normal, inout vec3 miter) {
-    int kind = deformer.kind.x;
+    int kind = int(deformer.kind.x);
     if (kind > kLattice) {
         return;
     }
@@ -88,12 +96,12 @@ void deform(Deformer deformer, inout vec3 position, inout vec3 normal, inout vec
         position += deformer.amount.x * miter;
         return;
     }
-    int axis = deformer.kind.y;
+    int axis = int(deformer.kind.y);
     mat3 jacobian;
 #ifdef LATTICE
     if (kind == kLattice) {
         axis = 0;
-        position = mapThroughLattice(deformer.lattice, deformer.amount.xyz, deformer.center.xyz, position, jacobian);
+        position = mapThroughLattice(ivec4(deformer.lattice), deformer.amount.xyz, deformer.center.xyz, position, jacobian);
     } else
 #endif
     {
