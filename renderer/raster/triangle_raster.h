@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderer/raster/screen_vertex.h"
+#include "renderer/raster/triangle_setup.h"
 
 #include <glm/mat4x4.hpp>
 
@@ -31,13 +31,6 @@ struct RasterView {
     bool clampsDepth = false; ///< nothing is clipped at the near and far planes
     /// Samples of each pixel, from its center, in pixels; |x|, |y| < 1/2. Empty: its center.
     std::span<const glm::vec2> places;
-};
-
-class EdgeFunction;
-
-/// Rows or columns whose samples lie between two coordinates.
-struct RasterRange {
-    int first, last;
 };
 
 class TriangleRaster {
@@ -80,8 +73,9 @@ private:
     struct Place {
         std::int32_t x, y; ///< from the lower left corner of a pixel, in subpixels
     };
-    struct Band;
     struct Filled;
+    static constexpr int kBandRows = 32;
+    static constexpr std::uint32_t kPart = 0x8000'0000u; ///< an entry of a band
 
     void prepare(std::span<const RasterMesh> meshes, const RasterView& view);
     void transform();
@@ -90,8 +84,8 @@ private:
     void sortInto(Chunk& chunk, const std::array<ScreenVertex, 3>& corners,
                   std::uint32_t entry) const;
     void clip(Chunk& chunk, std::uint32_t triangle) const;
-    void fill(int band);
-    void fillTriangle(const Band& band, std::array<ScreenVertex, 3> t, const Chunk& chunk,
+    void fill(int band); ///< this and the following: triangle_fill.cpp
+    void fillTriangle(RasterRange band, std::array<ScreenVertex, 3> t, const Chunk& chunk,
                       std::uint32_t triangle);
     void fillNarrow(Filled& filled, const std::array<EdgeFunction, 3>& edges, RasterRange columns,
                     RasterRange rows, std::size_t place);

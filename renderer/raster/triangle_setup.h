@@ -11,6 +11,11 @@
 /// What filling a triangle needs, from its snapped corners.
 namespace celadon {
 
+/// Rows or columns of a picture, both counted.
+struct RasterRange {
+    int first, last;
+};
+
 /// Positive to the left of a directed edge. Of an edge and its reverse, one counts points on it as
 /// inside.
 class EdgeFunction {
@@ -60,5 +65,15 @@ struct DepthPlane {
         return glm::clamp(at(px, py), least, greatest);
     }
 };
+
+/// Rows or columns whose samples, at places between two within a pixel, lie between two
+/// coordinates.
+inline RasterRange samplesBetween(std::int32_t low, std::int32_t high, std::int32_t leastPlace,
+                                  std::int32_t greatestPlace, int size) {
+    const auto ceiling = [](std::int32_t x) { return (x + kSubpixels - 1) >> 8; };
+    static_assert(kSubpixels == 1 << 8);
+    return {std::max(ceiling(low - greatestPlace), 0),
+            std::min((high - leastPlace) >> 8, size - 1)};
+}
 
 } // namespace celadon

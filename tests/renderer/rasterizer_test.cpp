@@ -178,5 +178,22 @@ TEST_F(RasterizerTest, SameFramesOfCutOutsAndNormalMaps) {
     expectTheSame(world, camera, {test::directionalLight({0.2, -0.3, 1.0})}, "from behind", kRims);
 }
 
+TEST_F(RasterizerTest, AMovedViewLeavesNothingBehind) {
+    // Passes that run only where something is seen must undo what they wrote elsewhere.
+    const World world = makeWorld("builtin:vase", wax());
+    FrameSettings settings = test::smallFrame(kSize, 64, Scheme::Hierarchical);
+    settings.coverageSamples = 4;
+    settings.rasterizer = Rasterizer::Processor;
+    const std::vector<Light> lights{test::frontLight()};
+    const Camera near = test::defaultCamera(world, kSize);
+    Camera far = near;
+    far.eye = near.at + 4.0 * (near.eye - near.at);
+    FrameRenderer moved(context(), world, settings);
+    static_cast<void>(moved.render(near, lights));
+    const FloatImage after = moved.render(far, lights).image;
+    const FloatImage fresh = test::renderFrame(context(), world, settings, far, lights).image;
+    EXPECT_EQ(after.pixels, fresh.pixels);
+}
+
 } // namespace
 } // namespace celadon
