@@ -460,7 +460,9 @@ void Editor::drawContents() {
     const ViewportRect& rect = mViewport.rect();
     mViewport.draw(background);
     mTruth.draw(mSession, background, rect);
-    mTools.drawOverlay(background, rect, mWindow.scale());
+    if (!mViewport.isPreparing()) { // there is nothing yet to paint on
+        mTools.drawOverlay(background, rect, mWindow.scale());
+    }
     mLayout.isOpening = mOpen.isRunning();
     mLayout.isRecovering = mRecovery.isRunning();
     drawLayout({mSession, mLayout, mPreferences, mActions, mViewport, mThumbnails, mTruth, mTools,
