@@ -248,12 +248,17 @@ void GpuWorld::unbindLooks() {
     }
 }
 
-void GpuWorld::drawMesh(std::size_t index) const {
-    const GpuMesh& mesh = mMeshes[index];
+void GpuWorld::draw(const gl::Program& program, bool looks) const {
+    program.use();
     mVertexArray.bind();
-    const auto offset = static_cast<std::uintptr_t>(mesh.firstCorner) * sizeof(std::uint32_t);
-    glDrawElementsBaseVertex(GL_TRIANGLES, 3 * mesh.triangleCount, GL_UNSIGNED_INT,
-                             reinterpret_cast<const void*>(offset), mesh.firstVertex);
+    for (std::size_t m = 0; m < mMeshes.size(); ++m) {
+        const GpuMesh& mesh = mMeshes[m];
+        setMesh(program, m, looks);
+        const auto offset = static_cast<std::uintptr_t>(mesh.firstCorner) * sizeof(std::uint32_t);
+        glDrawElementsBaseVertex(GL_TRIANGLES, 3 * mesh.triangleCount, GL_UNSIGNED_INT,
+                                 reinterpret_cast<const void*>(offset), mesh.firstVertex);
+    }
+    unbindLooks();
 }
 
 const TriangleRaster& GpuWorld::rasterize(const RasterView& view) const {

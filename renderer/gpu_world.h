@@ -37,8 +37,8 @@ public:
     void setMesh(const gl::Program& program, std::size_t mesh, bool looks) const;
     /// After the last mesh.
     static void unbindLooks();
-    /// Draws the triangles of a mesh with the program in use (surface.vert).
-    void drawMesh(std::size_t mesh) const;
+    /// Draws the triangles of every mesh by the driver, with a program of surface.vert.
+    void draw(const gl::Program& program, bool looks) const;
 
     /// For Rasterizer::Processor: what the vertices' buffer holds now, once the GPU has written it.
     /// The result is valid until the next.

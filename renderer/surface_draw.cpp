@@ -36,12 +36,6 @@ glm::vec4 orthographicDepth(const blocks::FrameBlock& frame, const glm::vec4& sc
     return glm::vec4(-scale * forward, 0.5f + scale * glm::dot(forward, glm::vec3(scene)));
 }
 
-std::vector<std::string_view> stagesOf(const gl::ShaderLibrary& shaders,
-                                       std::string_view fragmentShader) {
-    return {shaders.isDefined("VISIBLE_TRIANGLES") ? "fullscreen.vert" : "surface.vert",
-            fragmentShader};
-}
-
 } // namespace
 
 std::optional<RasterView> boundRasterView(const GpuWorld& world, SeenFrom eye, glm::ivec2 size) {
@@ -70,7 +64,11 @@ SurfaceDraw::SurfaceDraw(std::string_view label, const gl::ShaderLibrary& shader
     if (eye == SeenFrom::Camera) {
         defines.push_back({"CAMERA", "1"});
     }
-    mProgram = gl::Program(label, shaders, stagesOf(shaders, fragmentShader), defines);
+    const bool isSeen = shaders.isDefined("VISIBLE_TRIANGLES");
+    if (!isSeen || shows != Shows::Depth) { // the processor's depths need no shader
+        mProgram = gl::Program(
+            label, shaders, {isSeen ? "fullscreen.vert" : "surface.vert", fragmentShader}, defines);
+    }
 }
 
 const TriangleRaster* SurfaceDraw::draw(const GpuWorld& world, const gl::PassState& target,
@@ -87,12 +85,7 @@ void SurfaceDraw::drawByDriver(const GpuWorld& world, const gl::PassState& targe
     state.depthTest = gl::DepthTest::Greater;
     state.depthWrite = true;
     state.apply();
-    mProgram.use();
-    for (std::size_t mesh = 0; mesh < world.meshCount(); ++mesh) {
-        world.setMesh(mProgram, mesh, mShows == Shows::Looks);
-        world.drawMesh(mesh);
-    }
-    GpuWorld::unbindLooks();
+    world.draw(mProgram, mShows == Shows::Looks);
 }
 
 const TriangleRaster* SurfaceDraw::drawByProcessor(const GpuWorld& world,

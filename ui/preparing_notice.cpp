@@ -25,7 +25,6 @@ std::string preparingText(const Session& session) {
                               : "compiles shaders";
 }
 
-
 void drawPreparing(ImDrawList& list, const ViewportRect& rect, const std::string& text) {
     const ImVec2 low(static_cast<float>(rect.origin.x), static_cast<float>(rect.origin.y));
     const ImVec2 high(low.x + static_cast<float>(rect.size.x),

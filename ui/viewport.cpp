@@ -173,8 +173,9 @@ bool Viewport::update(Session& session) {
         mKnownSize = glm::ivec2(0);
     }
     bool redraw = takePicture(session);
-    if (mSaysPreparing != isPreparing()) {
-        mSaysPreparing = !mSaysPreparing;
+    const bool isLong = mShownRevision == 0 && Clock::now() - mWorldSince >= kPatience;
+    if (mIsPreparing != (mInFlight && isLong)) {
+        mIsPreparing = !mIsPreparing;
         redraw = true;
     }
     const std::uint64_t revision = session.pictureRevision();
@@ -220,7 +221,7 @@ bool Viewport::update(Session& session) {
 }
 
 double Viewport::secondsToNextStep() const {
-    if (mInFlight && mShownRevision == 0 && !mSaysPreparing) {
+    if (mInFlight && mShownRevision == 0 && !mIsPreparing) {
         const auto left = std::chrono::duration<double>(mWorldSince + kPatience - Clock::now());
         return std::max(left.count(), 0.001);
     }
@@ -256,15 +257,11 @@ void drawOver(const gl::Texture& texture, const ViewportRect& rect, ImDrawList& 
                   high, {0.0f, 1.0f}, {1.0f, 0.0f});
 }
 
-bool Viewport::isPreparing() const {
-    return mInFlight && mShownRevision == 0 && Clock::now() - mWorldSince >= kPatience;
-}
-
 void Viewport::draw(ImDrawList& list) const {
     if (mTexture) {
         drawOver(mTexture, mRect, list);
     }
-    if (mSaysPreparing) {
+    if (mIsPreparing) {
         drawPreparing(list, mRect, mPreparing);
     }
 }

@@ -66,7 +66,7 @@ public:
     };
     [[nodiscard]] const std::deque<Timing>& timings() const { return mTimings; }
     /// The first picture of what was opened is long in coming: draw() says so.
-    [[nodiscard]] bool isPreparing() const;
+    [[nodiscard]] bool isPreparing() const { return mIsPreparing; }
     [[nodiscard]] bool isWaiting() const {
         return mInFlight && mInFlight->purpose != Purpose::Rehearsal;
     }
@@ -105,8 +105,8 @@ private:
     bool mHasSelection = false; ///< part of a material is selected: it is shown
     std::uint64_t mWorldRevision = 0;
     Clock::time_point mWorldSince;
-    std::string mPreparing;      ///< what takes the time
-    bool mSaysPreparing = false; ///< on screen
+    std::string mPreparing; ///< what takes the time
+    bool mIsPreparing = false;
     std::uint64_t mSeenRevision = 0;
     int mFailures = 0; ///< of pictures of that revision
     std::optional<InFlight> mInFlight;

@@ -1,17 +1,14 @@
 #include "renderer/raster/triangle_raster.h"
 
 #include "renderer/raster/clip_triangle.h"
-#include "renderer/raster/triangle_setup.h"
 #include "subedit/assert.h"
 
 #include <glm/common.hpp>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <iterator>
 #include <limits>
-#include <utility>
 
 namespace celadon {
 

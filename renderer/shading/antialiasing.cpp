@@ -50,8 +50,7 @@ std::vector<glm::vec2> samplePlaces(const gl::Framebuffer& framebuffer, int coun
 
 Antialiasing::Antialiasing(const gl::ShaderLibrary& shaders, const SplattingBuffer& view,
                            int samples)
-    : mByProcessor(shaders.isDefined("VISIBLE_TRIANGLES")),
-      mColor(gl::Texture::make2d("color", GL_RGBA32F, view.size())),
+    : mColor(gl::Texture::make2d("color", GL_RGBA32F, view.size())),
       mFrameBlock("jittered frame", sizeof(blocks::FrameBlock), gl::BufferUse::Update),
       mEdges("edge pixels",
              sizeof(GLuint) * (4 + static_cast<std::size_t>(view.size().x) *
@@ -59,25 +58,27 @@ Antialiasing::Antialiasing(const gl::ShaderLibrary& shaders, const SplattingBuff
              gl::BufferUse::Update),
       mInterior("coverage inside", shaders, {"coverage_interior.comp"}),
       mEdge("coverage at edges", shaders, {"coverage_edge.comp"}) {
-    makeSamples(view, samples);
-    if (!mByProcessor) {
-        mSample = gl::Program("coverage", shaders, {"surface.vert", "splatting_buffer.frag"},
-                              {{"CAMERA", "1"}, {"COVERAGE", "1"}});
+    if (shaders.isDefined("VISIBLE_TRIANGLES")) {
+        makeSamplesOfProcessor(view);
+    } else {
+        makeSamplesOfDriver(shaders, view.size(), samples);
     }
     const auto ofADraw = static_cast<int>(mPlaces.size());
     mDraws = (samples + ofADraw - 1) / ofADraw;
 }
 
-void Antialiasing::makeSamples(const SplattingBuffer& view, int samples) {
-    const glm::ivec2 size = view.size();
-    if (mByProcessor) {
-        mTiles.emplace(view.paddedSize(), 1);
-        mPlaces.assign(kProcessorPlaces.begin(), kProcessorPlaces.end());
-        const auto layers = static_cast<int>(mPlaces.size());
-        mTriangles = gl::Texture::makeArray("coverage: triangles", GL_R32UI, size, layers);
-        mDepths = gl::Texture::makeArray("coverage: depths", GL_R32F, size, layers);
-        return;
-    }
+void Antialiasing::makeSamplesOfProcessor(const SplattingBuffer& view) {
+    mTiles.emplace(view.paddedSize(), 1);
+    mPlaces.assign(kProcessorPlaces.begin(), kProcessorPlaces.end());
+    const auto layers = static_cast<int>(mPlaces.size());
+    mTriangles = gl::Texture::makeArray("coverage: triangles", GL_R32UI, view.size(), layers);
+    mDepths = gl::Texture::makeArray("coverage: depths", GL_R32F, view.size(), layers);
+}
+
+void Antialiasing::makeSamplesOfDriver(const gl::ShaderLibrary& shaders, glm::ivec2 size,
+                                       int samples) {
+    mSample = gl::Program("coverage", shaders, {"surface.vert", "splatting_buffer.frag"},
+                          {{"CAMERA", "1"}, {"COVERAGE", "1"}});
     mSamples =
         gl::Texture::makeMultisampled("coverage: samples", GL_RG32F, size, samplesOfADraw(samples));
     mNormals =
@@ -93,7 +94,7 @@ void Antialiasing::findSamples(const GpuWorld& world, const CameraView& jittered
                                const SplattingBuffer& view) {
     mFrameBlock.write(std::array{makeFrameBlock(jittered, view.size(), view.paddedSize())});
     mFrameBlock.bindUniform(blocks::kFrame);
-    if (!mByProcessor) {
+    if (!mTiles) {
         drawSamples(world);
         return;
     }
@@ -104,7 +105,7 @@ void Antialiasing::findSamples(const GpuWorld& world, const CameraView& jittered
 }
 
 std::span<const glm::vec2> Antialiasing::placesToSee() const {
-    return mByProcessor ? std::span<const glm::vec2>(mPlaces) : std::span<const glm::vec2>();
+    return mTiles ? std::span<const glm::vec2>(mPlaces) : std::span<const glm::vec2>();
 }
 
 void Antialiasing::take(const TriangleRaster& seen, const SplattingBuffer& view) {
@@ -128,12 +129,7 @@ void Antialiasing::drawSamples(const GpuWorld& world) {
     mSampleFramebuffer.clearColor(0, glm::vec4(0.0f));
     mSampleFramebuffer.clearColor(1, glm::vec4(0.0f));
     mSampleFramebuffer.clearDepth(0.0f);
-    mSample->use();
-    for (std::size_t mesh = 0; mesh < world.meshCount(); ++mesh) {
-        world.setMesh(*mSample, mesh, false);
-        world.drawMesh(mesh);
-    }
-    GpuWorld::unbindLooks();
+    world.draw(mSample, false);
 }
 
 void Antialiasing::resolveDraw(const GpuWorld& world, const SplattingBuffer& view,
@@ -144,9 +140,9 @@ void Antialiasing::resolveDraw(const GpuWorld& world, const SplattingBuffer& vie
     view.positions().bind(0);
     view.normals().bind(1);
     radiance.bind(2);
-    (mByProcessor ? mTriangles : mSamples).bind(3);
-    (mByProcessor ? mDepths : mNormals).bind(4);
-    if (mByProcessor) {
+    (mTiles ? mTriangles : mSamples).bind(3);
+    (mTiles ? mDepths : mNormals).bind(4);
+    if (mTiles) {
         world.bindTriangles();
         world.places().bindStorage(1);
     }

@@ -34,7 +34,8 @@ public:
     [[nodiscard]] const gl::Texture& color() const { return mColor; }
 
 private:
-    void makeSamples(const SplattingBuffer& view, int samples);
+    void makeSamplesOfProcessor(const SplattingBuffer& view);
+    void makeSamplesOfDriver(const gl::ShaderLibrary& shaders, glm::ivec2 size, int samples);
     void findSamples(const GpuWorld& world, const CameraView& jittered,
                      const SplattingBuffer& view);
     void drawSamples(const GpuWorld& world);
@@ -43,18 +44,17 @@ private:
     void resolveDraw(const GpuWorld& world, const SplattingBuffer& view,
                      const gl::Texture& radiance, glm::dvec2 offset);
 
-    bool mByProcessor;                            ///< Rasterizer::Processor finds the samples
     gl::Texture mSamples, mNormals, mDepthBuffer; ///< the driver's: multisampled
     gl::Texture mTriangles, mDepths;              ///< the processor's: a layer a sample
-    std::optional<CoveredTiles> mTiles;           ///< of the processor's samples
+    std::optional<CoveredTiles> mTiles;           ///< of the processor's samples; else the driver's
     gl::Texture mColor;
     int mDraws = 1;
     std::uint64_t mSamplesOf = 0;   ///< SplattingBuffer::drawn(), if they are its first draw's
     std::vector<glm::vec2> mPlaces; ///< of a draw's samples, from the pixel's center, in pixels
     gl::Framebuffer mSampleFramebuffer;
     gl::Buffer mFrameBlock;
-    gl::Buffer mEdges; ///< as coverage.glsl has it: a dispatch's groups, a count, and pixels
-    std::optional<gl::Program> mSample; ///< the driver's
+    gl::Buffer mEdges;   ///< as coverage.glsl has it: a dispatch's groups, a count, and pixels
+    gl::Program mSample; ///< the driver's
     gl::Program mInterior, mEdge;
 };
 

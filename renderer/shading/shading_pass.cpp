@@ -13,7 +13,9 @@ ShadingPass::ShadingPass(const gl::ShaderLibrary& shaders, int materialCount,
 void ShadingPass::shade(const SplattingBuffer& view, const gl::Texture& exitance,
                         const gl::Texture& direct) {
     const gl::DebugGroup group("shading");
-    mRadiance.clear(0, glm::vec4(0.0f));
+    if (view.coveredTiles() != nullptr) {
+        mRadiance.clear(0, glm::vec4(0.0f)); // where no tile is
+    }
     mProgram.use();
     view.positions().bind(0);
     view.normals().bind(1);
