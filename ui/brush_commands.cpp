@@ -87,6 +87,8 @@ void addBrushCommands(Session& session) {
     Dispatcher& commands = session.dispatcher();
     commands.add("brush.change", "Radius in mm, hardness, flow, opacity, spacing in radii",
                  [&session](const Arguments& a) { changeBrush(session.paint.brush, a); });
+    commands.add("brush.pressure", "Whether a pen's pressure scales the flow: on",
+                 [&session](const Arguments& a) { session.paint.heedsPressure = a.flag("on"); });
     commands.add("operator.change", "Which operator the brush applies, and how much of it",
                  [&session](const Arguments& a) { changeOperator(session.paint, a); });
     commands.add("brush.mirror", "Repeats strokes on the other side of the object: x, y, z",

@@ -11,7 +11,7 @@
 #include "ui/panels/long_edit.h"
 #include "ui/picture_file.h"
 #include "ui/picture_worker.h"
-#include "ui/preferences.h"
+#include "ui/preferences_commands.h"
 #include "ui/recovery_run.h"
 #include "ui/script.h"
 #include "ui/thumbnails.h"
@@ -136,6 +136,12 @@ Editor::Editor(const EditorOptions& options)
     keepJournal();
     setActions();
     addWindowCommands(mSession, {mLayout, mFiles, mTools, mViewport, mJobs});
+    addPreferencesCommands(mSession.dispatcher(), mPreferences, [this] {
+        applyPreferences();
+        mWindow.setScale(
+            static_cast<float>(mPreferences.uiScale > 0.0 ? mPreferences.uiScale : mOptions.scale));
+        mFiles.savePreferences();
+    });
 }
 
 void Editor::keepJournal() {
@@ -198,12 +204,6 @@ void Editor::setActions() {
         mFiles.guard([this] { mShouldClose = true; });
     };
     applyPreferences();
-    mActions.preferencesChanged = [this] {
-        applyPreferences();
-        mWindow.setScale(
-            static_cast<float>(mPreferences.uiScale > 0.0 ? mPreferences.uiScale : mOptions.scale));
-        mFiles.savePreferences();
-    };
 }
 
 void Editor::applyPreferences() {
@@ -492,6 +492,7 @@ void Editor::composeFrame() {
     const ViewportRect rect = viewportRect(mWindow.sizePx(), mLayout, mWindow.scale());
     mViewport.setRect(rect);
     mSession.aspect = rect.aspect();
+    mLayout.hasPen = mWindow.hasPen();
     handleInput();
     drawContents();
     mWindow.endFrame();
@@ -526,8 +527,9 @@ void Editor::takeKey(KeyChord pressed) {
         return; // shift and the like: more is to come
     }
     if (!isGivenUp) {
-        mPreferences.keys.set(*mLayout.keyWantedFor, isNone ? KeyChord{} : pressed);
-        mActions.preferencesChanged();
+        mSession.perform({"preferences.key",
+                          {{"action", actionName(*mLayout.keyWantedFor)},
+                           {"key", isNone ? std::string() : chordText(pressed)}}});
     }
     mLayout.keyWantedFor.reset();
 }

@@ -175,6 +175,10 @@ std::span<const ActionInfo> actionInfos() {
     return kActions;
 }
 
+const char* actionName(Action action) {
+    return kActions[static_cast<std::size_t>(action)].name;
+}
+
 KeyMap::KeyMap() {
     for (const ActionInfo& info : kActions) {
         mChords[static_cast<std::size_t>(info.action)] = info.usual;

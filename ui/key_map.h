@@ -77,6 +77,8 @@ struct ActionInfo {
 };
 /// In the order of Action.
 [[nodiscard]] std::span<const ActionInfo> actionInfos();
+/// In files and commands.
+[[nodiscard]] const char* actionName(Action action);
 
 class KeyMap {
 public:

@@ -158,10 +158,7 @@ void drawLayout(const LayoutContext& context) {
     context.viewport.wantCounts(context.state.panelsShown && context.state.tab == Tab::View);
     drawNotices(context);
     drawHelpWindow(context.preferences.keys, context.state.helpShown, context.scale);
-    if (drawPreferencesWindow(context.preferences, context.state.preferencesShown,
-                              context.state.keyWantedFor, context.scale)) {
-        context.actions.preferencesChanged();
-    }
+    drawPreferencesWindow(context);
 }
 
 } // namespace celadon::ui

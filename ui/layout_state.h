@@ -29,7 +29,6 @@ struct LayoutActions {
     std::function<void(const std::string&)> saveAsNew; ///< a material of that name
     std::function<void(int frames)> saveTurntable;
     std::function<void()> togglePlay, toggleTurntable, cancelJobs;
-    std::function<void()> preferencesChanged;
     std::function<void(const std::string&)> open;  ///< a recent file or builtin
     std::function<void(const std::string&)> putOn; ///< a material, by name or file
     std::function<void()> toggleFullScreen;
@@ -40,6 +39,7 @@ struct LayoutState {
     bool helpShown = false;
     bool preferencesShown = false;
     std::optional<Action> keyWantedFor; ///< the preferences wait for a key
+    bool hasPen = false;                ///< one that tells its pressure is connected
     Tab tab = Tab::Brush;
     std::optional<double> scrollTo; ///< of the side bar, once
     std::string openMenu;           ///< to be opened, once

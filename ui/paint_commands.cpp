@@ -71,16 +71,17 @@ subedit::SelectionStep selectionStep(const Arguments& a) {
 
 } // namespace
 
-subedit::EditProgress Session::progressOf(const subedit::EditCommand& edit) const {
+subedit::EditProgress Session::progressOf(const std::string& title) const {
     if (!onProgress) {
         return {};
     }
-    return [this, title = subedit::commandTitle(edit)](float done) { onProgress(title, done); };
+    return [this, title](float done) { onProgress(title, done); };
 }
 
 void Session::edit(const subedit::EditCommand& command) {
     subedit::Document& target = documentOf(*this, activeMaterial);
-    const subedit::EditReport report = target.execute(command, progressOf(command));
+    const subedit::EditReport report =
+        target.execute(command, progressOf(subedit::commandTitle(command)));
     dropUndone(activeMaterial);
     mDispatcher.announce(editCommand(activeMaterial, command));
     tell(report, std::holds_alternative<subedit::SelectCommand>(command));
@@ -113,15 +114,16 @@ void Session::beginStroke(int material, const subedit::StrokePoint& point, bool 
     if (target == nullptr || isStrokeOpen()) {
         return;
     }
-    activeMaterial = material;
-    mStrokeMaterial = material;
-    mStroke = {makeOperator(paint, inverted), paint.brush, mirror(), {point}};
-    mStrokeInverted = inverted;
-    mStrokeSelects = paint.tool == Tool::Select;
-    mStrokeIsLive = !mStrokeSelects && subedit::isLocal(mStroke.op);
-    if (mStrokeIsLive) {
-        target->beginStroke(mStroke);
+    Stroke stroke{{makeOperator(paint, inverted), paint.brush, mirror(), {point}}, inverted};
+    stroke.selects = paint.tool == Tool::Select;
+    stroke.isLive = !stroke.selects && subedit::isLocal(stroke.command.op);
+    if (stroke.isLive) {
+        performWaiting(); // while it lasts nothing else may change the material
+        target->beginStroke(stroke.command);
     }
+    mStroke = std::move(stroke);
+    mStrokeMaterial = material;
+    activeMaterial = material;
     touchMaterial();
 }
 
@@ -129,8 +131,8 @@ void Session::addStrokePoint(const subedit::StrokePoint& point) {
     if (!isStrokeOpen()) {
         return;
     }
-    mStroke.path.push_back(point);
-    if (mStrokeIsLive) {
+    mStroke.command.path.push_back(point);
+    if (mStroke.isLive) {
         document(mStrokeMaterial)->addStrokePoint(point);
         touchMaterial();
     }
@@ -141,28 +143,37 @@ void Session::endStroke() {
         return;
     }
     const int material = std::exchange(mStrokeMaterial, -1);
+    if (onProgress && !mStroke.isLive) {
+        mWaiting.push_back([this, material, stroke = mStroke] { finishStroke(material, stroke); });
+    } else {
+        finishStroke(material, mStroke);
+    }
+}
+
+void Session::finishStroke(int material, const Stroke& stroke) {
     subedit::Document& target = *document(material);
-    subedit::EditCommand edit = mStroke;
-    if (mStrokeSelects) {
+    subedit::EditCommand edit = stroke.command;
+    if (stroke.selects) {
         // While everything is selected, a first stroke chooses.
         const subedit::WeightMask& now = target.selection();
         const bool isAll = now == subedit::WeightMask::full(now.width(), now.height());
         const subedit::SelectMode adding = isAll ? subedit::SelectMode::Replace : paint.selectMode;
         edit = subedit::SelectCommand{
-            subedit::SelectStroke{mStroke.brush, mStroke.mirror, mStroke.path},
-            mStrokeInverted ? subedit::SelectMode::Subtract : adding};
+            subedit::SelectStroke{stroke.command.brush, stroke.command.mirror, stroke.command.path},
+            stroke.isInverted ? subedit::SelectMode::Subtract : adding};
     }
     const subedit::EditReport report =
-        mStrokeIsLive ? target.endStroke() : target.execute(edit, progressOf(edit));
+        stroke.isLive ? target.endStroke()
+                      : target.execute(edit, progressOf(subedit::commandTitle(edit)));
     dropUndone(material);
-    tell(report, mStrokeSelects);
+    tell(report, stroke.selects);
     mDispatcher.announce(editCommand(material, edit));
     touchMaterial();
 }
 
 void Session::cancelStroke() {
     if (isStrokeOpen()) {
-        if (mStrokeIsLive) {
+        if (mStroke.isLive) {
             document(mStrokeMaterial)->cancelStroke();
         }
         mStrokeMaterial = -1;
@@ -179,25 +190,26 @@ void addPaintCommands(Session& session) {
                          subedit::parseCommand("paint.edit", a.value("edit").dump());
                      subedit::Document& document = documentOf(session, material);
                      session.activeMaterial = material; // as by the hand that did it
-                     document.execute(edit, session.progressOf(edit));
+                     document.execute(edit, session.progressOf(subedit::commandTitle(edit)));
                      session.dropUndone(material);
                      session.touchMaterial();
                  });
-    commands.add("edit.undo", "Takes back the last change of the material or of the deformers",
-                 [&session](const Arguments&) {
-                     refuseDuringStroke(session);
-                     if (session.undoMotion() || session.undoEdit()) {
-                         return;
-                     }
-                     if (session.isAnyForgotten()) {
-                         throw UsageError("undo", "older steps are forgotten: the preferences say "
-                                                  "how much memory undoing may take");
-                     }
-                 });
-    commands.add("edit.redo", "Repeats what was taken back", [&session](const Arguments&) {
+    // Both may take long, so they are recorded when they are done.
+    commands.addEdit("edit.undo", "Takes back the last change of the material or of the deformers",
+                     [&session](const Arguments&) {
+                         refuseDuringStroke(session);
+                         if (session.undoMotion() || session.undoEdit()) {
+                             session.dispatcher().announce({"edit.undo", {}});
+                         } else if (session.isAnyForgotten()) {
+                             throw UsageError("undo",
+                                              "older steps are forgotten: the preferences say how "
+                                              "much memory undoing may take");
+                         }
+                     });
+    commands.addEdit("edit.redo", "Repeats what was taken back", [&session](const Arguments&) {
         refuseDuringStroke(session);
-        if (!session.redoMotion()) {
-            session.redoEdit();
+        if (session.redoMotion() || session.redoEdit()) {
+            session.dispatcher().announce({"edit.redo", {}});
         }
     });
     commands.add("material.activate", "Chooses which material is worked on",

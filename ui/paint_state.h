@@ -72,6 +72,7 @@ struct PaintState {
     PaintOperator op = PaintOperator::Profile;
     subedit::Brush brush;
     bool mirror[3] = {false, false, false};
+    bool heedsPressure = true;            ///< a pen's pressure scales the flow
     float amount = 1.0f;                  ///< of Profile and Tint
     float albedoFactor = 1.25f;           ///< of ScaleAlbedo
     float rangeFactor = 1.5f;             ///< of ScaleRange

@@ -57,6 +57,10 @@ std::map<std::string, std::string> keysOf(const nlohmann::json& object) {
 
 } // namespace
 
+const char* themeName(Theme theme) {
+    return kThemes[static_cast<std::size_t>(theme)];
+}
+
 std::filesystem::path preferencesFile() {
     return configFolder() / "preferences.json";
 }
@@ -89,7 +93,7 @@ Preferences readPreferences(const std::filesystem::path& file) {
 }
 
 void writePreferences(const Preferences& preferences, const std::filesystem::path& file) {
-    const nlohmann::json object{{"theme", kThemes[static_cast<std::size_t>(preferences.theme)]},
+    const nlohmann::json object{{"theme", themeName(preferences.theme)},
                                 {"keys", preferences.keys.changes()},
                                 {"uiScale", preferences.uiScale},
                                 {"autosave", preferences.autosave},

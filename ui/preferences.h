@@ -10,6 +10,8 @@
 namespace celadon::ui {
 
 enum class Theme { Dark, Gray, Light };
+/// In files and commands: dark, gray, light.
+[[nodiscard]] const char* themeName(Theme theme);
 
 struct Preferences {
     Theme theme = Theme::Dark;

@@ -25,21 +25,21 @@ Session::Session(SessionServices services) : mServices(std::move(services)) {
 
 bool Session::perform(const Command& command) {
     if (onProgress && (mDispatcher.isLong(command.name) || !mWaiting.empty())) {
-        mWaiting.push_back(command); // or comes after one that waits
-        return true;
+        mWaiting.push_back([this, command] { mDispatcher.execute(command); });
+        return true; // or comes after one that waits
     }
-    return performNow(command);
+    return attempt([&] { mDispatcher.execute(command); });
 }
 
 void Session::performWaiting() {
-    for (const Command& command : std::exchange(mWaiting, {})) {
-        performNow(command);
+    for (const std::function<void()>& action : std::exchange(mWaiting, {})) {
+        attempt(action);
     }
 }
 
-bool Session::performNow(const Command& command) {
+bool Session::attempt(const std::function<void()>& action) {
     try {
-        mDispatcher.execute(command);
+        action();
         return true;
     } catch (const GivenUp& givenUp) {
         notify(Notice::Kind::Info, givenUp.what());

@@ -82,7 +82,7 @@ public:
     /// below 0 where nobody knows. It must not change the session; what it throws ends the edit and
     /// leaves the material as it was. Empty: nobody asks.
     std::function<void(const std::string& title, float done)> onProgress;
-    [[nodiscard]] subedit::EditProgress progressOf(const subedit::EditCommand& edit) const;
+    [[nodiscard]] subedit::EditProgress progressOf(const std::string& title) const;
     /// The same, throwing. For replays and tests. @throws celadon::Error
     void execute(const Command& command) { mDispatcher.execute(command); }
     [[nodiscard]] Dispatcher& dispatcher() { return mDispatcher; }
@@ -119,6 +119,7 @@ public:
     /// A stroke as it happens. Its end is the command that a replay repeats.
     void beginStroke(int material, const subedit::StrokePoint& point, bool inverted);
     void addStrokePoint(const subedit::StrokePoint& point);
+    /// With somebody to tell, what is worked out only now waits for the end of the frame.
     void endStroke();
     void cancelStroke();
     [[nodiscard]] bool isStrokeOpen() const { return mStrokeMaterial >= 0; }
@@ -205,7 +206,16 @@ private:
     void followAnimation();
     /// What was chosen stays so where the list has it still.
     void keepChoice(const DeformerStack& before);
-    bool performNow(const Command& command);
+    /// What it throws becomes a notice. @return whether it threw nothing
+    bool attempt(const std::function<void()>& action);
+    /// The stroke in hand.
+    struct Stroke {
+        subedit::StrokeCommand command;
+        bool isInverted = false;
+        bool selects = false; ///< its paint is selection
+        bool isLive = false;  ///< the material follows; else all is done at the end
+    };
+    void finishStroke(int material, const Stroke& stroke);
     /// Of all documents, in effect.
     [[nodiscard]] std::size_t editCount() const;
     /// Whose edit is the latest, or was taken back last; -1: none.
@@ -230,11 +240,8 @@ private:
     std::vector<std::uint64_t> mSaved;         ///< Document::contentId() of what is in the file
     std::optional<std::size_t> mHistoryBytes;  ///< of each; else their default
     int mStrokeMaterial = -1;                  ///< of the open stroke
-    subedit::StrokeCommand mStroke;
-    bool mStrokeInverted = false;
-    bool mStrokeSelects = false;   ///< its paint is selection
-    bool mStrokeIsLive = false;    ///< the material follows; else all is done at the end
-    std::vector<Command> mWaiting; ///< for the end of the frame
+    Stroke mStroke;
+    std::vector<std::function<void()>> mWaiting; ///< for the end of the frame
     std::uint64_t mPictureRevision = 1;
     std::uint64_t mWorldRevision = 0;
 };

@@ -66,7 +66,7 @@ bool Session::undoEdit() {
         return false;
     }
     activeMaterial = material;
-    document(material)->undo();
+    document(material)->undo(progressOf("Undo " + document(material)->undoTitle()));
     touchMaterial();
     return true;
 }
@@ -77,7 +77,7 @@ bool Session::redoEdit() {
         return false;
     }
     activeMaterial = material;
-    document(material)->redo();
+    document(material)->redo(progressOf("Redo " + document(material)->redoTitle()));
     touchMaterial();
     return true;
 }
@@ -112,7 +112,7 @@ bool Session::isModified(int material) const {
     const subedit::Document* const painted = document(material);
     return painted != nullptr &&
            (painted->contentId() != mSaved[static_cast<std::size_t>(material)] ||
-            (material == mStrokeMaterial && mStrokeIsLive));
+            (material == mStrokeMaterial && mStroke.isLive));
 }
 
 bool Session::isModified() const {

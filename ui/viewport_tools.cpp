@@ -180,7 +180,7 @@ void ViewportTools::move(const InputEvent& event, const ViewportRect& rect) {
         dragControlBy(delta, rect);
         break;
     case Drag::Paint:
-        paintTo(event.positionPx, rect);
+        paintTo(event, rect);
         break;
     case Drag::Scribble:
     case Drag::Line:
@@ -272,7 +272,7 @@ void ViewportTools::pressSurface(const SurfacePoint& hit, const InputEvent& even
     const bool isShifted = (event.modifiers & GLFW_MOD_SHIFT) != 0;
     const nlohmann::json place{{"position", toJson(hit.positionMm)},
                                {"normal", toJson(hit.shadingNormal)}};
-    mInverted = (event.modifiers & GLFW_MOD_CONTROL) != 0;
+    mInverted = (event.modifiers & GLFW_MOD_CONTROL) != 0 || event.isEraser;
     if (paint.tool == Tool::Similar) {
         Command select{"select.similar", place};
         select.arguments["tolerance"] = paint.tolerance;
@@ -313,11 +313,16 @@ void ViewportTools::pressSurface(const SurfacePoint& hit, const InputEvent& even
     }
     mDrag = Drag::Paint;
     mPaintedPx = event.positionPx;
+    mPaintedPressure = pressureOf(event);
     mLastPoint.reset();
-    paintPoint(event.positionPx, rect);
+    paintPoint(event.positionPx, mPaintedPressure, rect);
 }
 
-bool ViewportTools::paintPoint(glm::dvec2 positionPx, const ViewportRect& rect) {
+float ViewportTools::pressureOf(const InputEvent& event) const {
+    return mSession.paint.heedsPressure ? event.pressure : 1.0f;
+}
+
+bool ViewportTools::paintPoint(glm::dvec2 positionPx, float pressure, const ViewportRect& rect) {
     const std::optional<SurfacePoint> hit = mPicker.pickAtRest(positionPx, rect);
     if (!hit || hit->material < 0 ||
         (mSession.isStrokeOpen() && hit->material != mSession.activeMaterial)) {
@@ -327,6 +332,7 @@ bool ViewportTools::paintPoint(glm::dvec2 positionPx, const ViewportRect& rect) 
     subedit::StrokePoint point;
     point.positionMm = glm::vec3(hit->positionMm);
     point.normal = glm::vec3(hit->shadingNormal);
+    point.pressure = pressure;
     // After a gap, or where the surface jumps, the path begins anew: nothing between is painted.
     constexpr double kJump = 2.5; // radii
     const bool goesOn = mSession.isStrokeOpen() && mLastPoint &&
@@ -347,21 +353,26 @@ bool ViewportTools::paintPoint(glm::dvec2 positionPx, const ViewportRect& rect) 
     return true;
 }
 
-void ViewportTools::paintTo(glm::dvec2 positionPx, const ViewportRect& rect) {
+void ViewportTools::paintTo(const InputEvent& event, const ViewportRect& rect) {
     // A fast hand: points between, so that the path follows the surface.
     constexpr int kMostPoints = 2048; // more than a window is wide, at a pixel each
     const glm::dvec2 from = mPaintedPx;
+    const float pressure = pressureOf(event);
     double stepPx = 8.0;
     if (mLastPoint) {
         const double mmPerPx = pictureHeightMm(mSession.camera, *mLastPoint) / rect.size.y;
         stepPx = std::max(1.0, 0.5 * static_cast<double>(mSession.paint.brush.radiusMm) / mmPerPx);
     }
-    const int steps = std::clamp(
-        static_cast<int>(std::ceil(glm::distance(from, positionPx) / stepPx)), 1, kMostPoints);
+    const int steps =
+        std::clamp(static_cast<int>(std::ceil(glm::distance(from, event.positionPx) / stepPx)), 1,
+                   kMostPoints);
     for (int i = 1; i <= steps; ++i) {
-        paintPoint(glm::mix(from, positionPx, static_cast<double>(i) / steps), rect);
+        const double along = static_cast<double>(i) / steps;
+        paintPoint(glm::mix(from, event.positionPx, along),
+                   glm::mix(mPaintedPressure, pressure, static_cast<float>(along)), rect);
     }
-    mPaintedPx = positionPx;
+    mPaintedPx = event.positionPx;
+    mPaintedPressure = pressure;
 }
 
 void ViewportTools::cancel() {

@@ -65,8 +65,10 @@ private:
     /// @return whether the surface is there
     bool addHandleAt(glm::dvec2 positionPx, const ViewportRect& rect);
     void pressTool(const InputEvent& event, const ViewportRect& rect);
-    void paintTo(glm::dvec2 positionPx, const ViewportRect& rect);
-    bool paintPoint(glm::dvec2 positionPx, const ViewportRect& rect);
+    void paintTo(const InputEvent& event, const ViewportRect& rect);
+    bool paintPoint(glm::dvec2 positionPx, float pressure, const ViewportRect& rect);
+    /// Of a brush that listens to it; else 1.
+    [[nodiscard]] float pressureOf(const InputEvent& event) const;
     void adjust(glm::dvec2 positionPx);
     void pressSurface(const SurfacePoint& hit, const InputEvent& event, const ViewportRect& rect);
     void dragOverSurface(glm::dvec2 positionPx, const ViewportRect& rect);
@@ -86,7 +88,8 @@ private:
     glm::dvec2 mCursor{-1.0};
     bool mIsOverUi = true;
     glm::dvec2 mPaintedPx{0.0};           ///< where the stroke has come
-    bool mInverted = false;               ///< Ctrl was down as the stroke began
+    float mPaintedPressure = 1.0f;        ///< and with how much pressure
+    bool mInverted = false;               ///< Ctrl was down as the stroke began, or it erases
     std::optional<glm::dvec3> mLastPoint; ///< of the stroke, mm; none after a gap
     struct Adjusting {
         Adjust what = Adjust::Radius;

@@ -88,6 +88,7 @@ Window::Window(const std::string& title, glm::ivec2 size, double scale) : mTitle
     ImGui::GetIO().LogFilename = nullptr;
     ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NoMouseCursorChange;
     installCallbacks();
+    mPen = std::make_unique<PenInput>(mWindow);
     ImGui_ImplGlfw_InitForOpenGL(mWindow, false); // our callbacks call its own
     ImGui_ImplOpenGL3_Init("#version 450");
 }
@@ -98,6 +99,7 @@ Window::~Window() {
     ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();
     mContext.reset();
+    mPen.reset();
     glfwDestroyWindow(mJobsWindow);
     glfwDestroyWindow(mWorkerWindow);
     glfwDestroyWindow(mWindow);
@@ -105,10 +107,12 @@ Window::~Window() {
 
 void Window::installCallbacks() {
     glfwSetWindowUserPointer(mWindow, this);
+    glfwGetCursorPos(mWindow, &mCursorPx.x, &mCursorPx.y);
     glfwSetCursorPosCallback(mWindow, [](GLFWwindow* handle, double x, double y) {
         Window& self = *windowOf(handle);
         self.mHadEvents = true;
-        self.mInput.push_back({InputEvent::Kind::Move, {x, y}});
+        self.mCursorPx = {x, y};
+        self.mInput.push_back({InputEvent::Kind::Move, self.mCursorPx});
     });
     glfwSetMouseButtonCallback(
         mWindow, [](GLFWwindow* handle, int button, int action, int modifiers) {
@@ -116,7 +120,7 @@ void Window::installCallbacks() {
             self.mHadEvents = true;
             InputEvent event{action == GLFW_RELEASE ? InputEvent::Kind::Release
                                                     : InputEvent::Kind::Press};
-            glfwGetCursorPos(handle, &event.positionPx.x, &event.positionPx.y);
+            event.positionPx = self.mCursorPx;
             event.button = button;
             event.modifiers = modifiers;
             self.mInput.push_back(event);
@@ -127,7 +131,7 @@ void Window::installCallbacks() {
         Window& self = *windowOf(handle);
         self.mHadEvents = true;
         InputEvent event{InputEvent::Kind::Wheel};
-        glfwGetCursorPos(handle, &event.positionPx.x, &event.positionPx.y);
+        event.positionPx = self.mCursorPx;
         event.wheel = y;
         self.mInput.push_back(event);
     });
@@ -176,7 +180,7 @@ void Window::installCallbacks() {
 
 void Window::pushKey(KeyChord chord, bool isRepeated) {
     InputEvent event{InputEvent::Kind::Key};
-    glfwGetCursorPos(mWindow, &event.positionPx.x, &event.positionPx.y);
+    event.positionPx = mCursorPx;
     event.button = chord.key;
     event.modifiers = chord.modifiers;
     event.isRepeated = isRepeated;
@@ -222,6 +226,7 @@ void Window::wake() {
 }
 
 std::vector<InputEvent> Window::takeInput() {
+    mPen->tell(mInput);
     return std::exchange(mInput, {});
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "renderer/gl/context.h"
+#include "ui/input_event.h"
+#include "ui/pen_input.h"
 #include "ui/preferences.h"
 
 #include <glm/vec2.hpp>
@@ -16,17 +18,6 @@ struct GLFWwindow;
 
 /// A GLFW window with Dear ImGui on it, and what hands do to it, in order. Main thread.
 namespace celadon::ui {
-
-/// What happened since the last frame, in order: nothing is lost between frames.
-struct InputEvent {
-    enum class Kind { Move, Press, Release, Wheel, Key };
-    Kind kind = Kind::Move;
-    glm::dvec2 positionPx{0.0}; ///< of the cursor, window pixels from the top left
-    int button = 0;             ///< GLFW's mouse button or key
-    int modifiers = 0;          ///< GLFW's
-    bool isRepeated = false;    ///< a key that is held down
-    double wheel = 0.0;
-};
 
 class Window {
 public:
@@ -57,6 +48,8 @@ public:
     [[nodiscard]] bool hadEvents() const { return mHadEvents || !mKeys.empty(); }
     void clearHadEvents() { mHadEvents = false; }
     [[nodiscard]] std::vector<InputEvent> takeInput();
+    /// A pen that tells its pressure is connected.
+    [[nodiscard]] bool hasPen() const { return mPen->hasPen(); }
     [[nodiscard]] std::vector<std::filesystem::path> takeDroppedFiles();
 
     /// @throws ContextError when the driver has lost the context (a reset)
@@ -93,7 +86,10 @@ private:
     bool mHadEvents = true;
     bool mIsRepeating = false; ///< the key whose character comes next
     std::string mTitle;
+    /// As the events in hand have it; GLFW's own answer is where it is by now, which is further on.
+    glm::dvec2 mCursorPx{0.0};
     std::vector<InputEvent> mInput;
+    std::unique_ptr<PenInput> mPen;
     std::vector<std::filesystem::path> mDropped;
     std::deque<KeyEvent> mKeys; ///< not yet passed to ImGui
     glm::ivec4 mWindowed{0};    ///< place and size before full screen

@@ -91,9 +91,10 @@ public:
 
     [[nodiscard]] bool canUndo() const { return mDone > mForgotten; }
     [[nodiscard]] bool canRedo() const { return mDone < mHistory.size(); }
+    /// Both may take long: what was left out of the history is computed again.
     /// @return whether there was anything to undo
-    bool undo();
-    bool redo();
+    bool undo(const EditProgress& progress = {});
+    bool redo(const EditProgress& progress = {});
     /// Of the command that undo() or redo() would take back or repeat; empty if none.
     [[nodiscard]] std::string undoTitle() const;
     [[nodiscard]] std::string redoTitle() const;

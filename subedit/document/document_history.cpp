@@ -1,11 +1,13 @@
 #include "subedit/assert.h"
 #include "subedit/document/history_entry.h"
 #include "subedit/document/open_stroke.h"
+#include "subedit/stop_point.h"
 
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
 #include <utility>
 
 // Undo. A command keeps the profiles that it changed, until all of them together are too many. Then
@@ -333,7 +335,7 @@ void Document::undoGrowths(const Entry& entry) {
     }
 }
 
-bool Document::undo() {
+bool Document::undo(const EditProgress& progress) {
     CELADON_ASSERT(!isStrokeOpen());
     if (!canUndo()) {
         return false;
@@ -346,18 +348,23 @@ bool Document::undo() {
     }
     accountFor(entry, [&] {
         // Tiles are read by their neighbors in time only, not in space: one at a time each.
-        std::vector<TileBefore> before(entry.before.size());
-        tbb::parallel_for(std::size_t{0}, before.size(), [&](std::size_t i) {
-            TileBefore& kept = entry.before[i];
-            before[i].tile = kept.tile;
-            const TileBits changed = entry.weighted(kept.tile);
-            if (kept.kept != changed) {
-                complete(mDone - 1, before[i], changed);
-            } else {
-                before[i] = std::move(kept);
-            }
+        std::vector<std::optional<TileBefore>> completed(entry.before.size());
+        doTelling(progress, [&] {
+            tbb::parallel_for(std::size_t{0}, completed.size(), [&](std::size_t i) {
+                const TileBefore& kept = entry.before[i];
+                const TileBits changed = entry.weighted(kept.tile);
+                if (kept.kept != changed) {
+                    complete(mDone - 1, completed[i].emplace(TileBefore{kept.tile, {}, {}}),
+                             changed);
+                }
+            });
+            stopPoint();
         });
-        entry.before = std::move(before);
+        for (std::size_t i = 0; i < completed.size(); ++i) {
+            if (completed[i]) {
+                entry.before[i] = std::move(*completed[i]);
+            }
+        }
         restoreTiles(entry);
         undoGrowths(entry);
         entry.before.clear(); // doing it again saves them again
@@ -367,7 +374,7 @@ bool Document::undo() {
     return true;
 }
 
-bool Document::redo() {
+bool Document::redo(const EditProgress& progress) {
     CELADON_ASSERT(!isStrokeOpen());
     if (!canRedo()) {
         return false;
@@ -376,7 +383,7 @@ bool Document::redo() {
     if (entry.isSelection()) {
         setSelection(entry.mask);
     } else {
-        accountFor(entry, [&] { applyMasked(entry); });
+        accountFor(entry, [&] { applyMasked(entry, progress); });
     }
     ++mDone;
     trim();

@@ -1,5 +1,6 @@
+#include "subedit/errors.h"
 #include "tests/support/temporary_folder.h"
-#include "ui/preferences.h"
+#include "ui/preferences_commands.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -92,6 +93,45 @@ TEST(Preferences, WhatIsWrongTakesItsDefault) {
         EXPECT_EQ(read.undoMegabytes, 512.0) << text;
         EXPECT_TRUE(read.autosave) << text;
     }
+}
+
+TEST(Preferences, CommandsChangeThemOrLeaveThemAsTheyAre) {
+    Preferences preferences;
+    int told = 0;
+    Dispatcher commands;
+    addPreferencesCommands(commands, preferences, [&told] { ++told; });
+    int recorded = 0;
+    commands.observe([&recorded](const Command&) { ++recorded; });
+    commands.execute({"preferences.change",
+                      {{"theme", "light"}, {"scale", 1.5}, {"undo", 300.0}, {"journal", false}}});
+    EXPECT_EQ(preferences.theme, Theme::Light);
+    EXPECT_EQ(preferences.uiScale, 1.5);
+    EXPECT_EQ(preferences.undoMegabytes, 300.0);
+    EXPECT_FALSE(preferences.autosave);
+    EXPECT_EQ(preferences.frameBudgetMs, 100.0);
+    for (const ActionInfo& info : actionInfos()) { // any key that can be shown can be said
+        commands.execute({"preferences.key", {{"action", info.name}, {"key", "Ctrl+Shift+J"}}});
+        EXPECT_EQ(preferences.keys.text(info.action), "Ctrl+Shift+J");
+    }
+    commands.execute({"preferences.key", {{"action", "undo"}, {"key", ""}}});
+    EXPECT_EQ(preferences.keys.text(Action::Undo), "");
+    commands.execute({"preferences.usualKeys", {}});
+    EXPECT_EQ(preferences.keys, KeyMap());
+    EXPECT_EQ(recorded, 0);
+    const int toldSoFar = told;
+    EXPECT_EQ(toldSoFar, static_cast<int>(actionInfos().size()) + 3);
+
+    for (const Command& wrong :
+         {Command{"preferences.change", {{"scale", 1.0}, {"theme", "pink"}}},
+          Command{"preferences.change", {{"theme", "gray"}, {"scale", 9.0}}},
+          Command{"preferences.key", {{"action", "sing"}, {"key", "Q"}}},
+          Command{"preferences.key", {{"action", "undo"}, {"key", "Hyper+Q"}}}}) {
+        EXPECT_THROW(commands.execute(wrong), UsageError);
+    }
+    EXPECT_EQ(preferences.theme, Theme::Light);
+    EXPECT_EQ(preferences.uiScale, 1.5);
+    EXPECT_EQ(preferences.keys, KeyMap());
+    EXPECT_EQ(told, toldSoFar);
 }
 
 } // namespace

@@ -254,6 +254,43 @@ TEST_F(SessionTest, LongEditsWaitForTheEndOfTheFrameAndCanBeGivenUp) {
     EXPECT_EQ(recorded.size(), recordedBefore + 2);
 }
 
+TEST_F(SessionTest, StrokesThatAreWorkedOutAtTheirEndWaitForTheEndOfTheFrame) {
+    session.execute({"operator.change", {{"name", "enhance"}}});
+    paintStroke();
+    ASSERT_EQ(recorded.back().name, "paint.edit");
+    const Command direct = recorded.back();
+    session.execute({"edit.undo"});
+
+    int told = 0;
+    session.onProgress = [&told](const std::string&, float) { ++told; };
+    const std::size_t recordedBefore = recorded.size();
+    paintStroke();
+    EXPECT_FALSE(session.isStrokeOpen());
+    EXPECT_EQ(recorded.size(), recordedBefore);
+    session.performWaiting();
+    EXPECT_EQ(recorded.size(), recordedBefore + 1);
+    EXPECT_EQ(recorded.back().arguments, direct.arguments);
+
+    // The first of two selections replaces all, the second adds, though both end within a frame.
+    session.execute({"tool.choose", {{"name", "select"}}});
+    paintStroke();
+    paintStroke();
+    session.performWaiting();
+    EXPECT_EQ(recorded[recorded.size() - 2].arguments.at("edit").value("mode", "replace"),
+              "replace");
+    EXPECT_EQ(recorded.back().arguments.at("edit").value("mode", "replace"), "add");
+
+    // A stroke that the material follows comes after what waits.
+    paintStroke();
+    session.execute({"tool.choose", {{"name", "paint"}}});
+    session.execute({"operator.change", {{"name", "scale-albedo"}}});
+    const std::size_t strokes = session.activeDocument()->commandCount();
+    paintStroke();
+    EXPECT_EQ(session.activeDocument()->commandCount(), strokes + 2);
+    EXPECT_GT(told, 0);
+    EXPECT_EQ(session.notices.size(), 0u);
+}
+
 TEST_F(SessionTest, RefusedCommandsChangeNothingAndBecomeNotices) {
     const Camera camera = session.camera;
     const float radius = session.paint.brush.radiusMm;

@@ -147,6 +147,19 @@ xdotool key Return
 await 30 '"notices":".*broken.obj.*line 2'
 xdotool key ctrl+shift+z
 await 30 '"strokes":1'
+if /usr/bin/python3 -c 'import Xlib' 2>/dev/null; then # files dragged from another window
+    printf 'v 0 0 0\nf 1 2 4\n' >"$folder/dropped.obj"
+    "$(dirname "$0")/drop_files.py" "$window" 300 300 "$folder/dropped.obj" || fail "no drop"
+    await 30 '"asking":true' # there are changes that are not saved
+    xdotool key Escape
+    await 30 '"asking":false'
+    xdotool key ctrl+z
+    await 30 '"modified":false'
+    "$(dirname "$0")/drop_files.py" "$window" 300 300 "$folder/dropped.obj" || fail "no drop"
+    await 30 '"notices":".*dropped.obj.*line 2'
+    xdotool key ctrl+shift+z
+    await 30 '"strokes":1'
+fi
 kill_editor
 rm -f "$folder"/state/celadon/*.journal
 

@@ -248,7 +248,7 @@ void drawParameters(Session& session) {
     }
 }
 
-void drawBrush(Session& session, const KeyMap& keys) {
+void drawBrush(Session& session, const KeyMap& keys, bool hasPen) {
     heading("Brush");
     const subedit::Brush& brush = session.paint.brush;
     const float size = static_cast<float>(session.world().scatteringSphere.radius);
@@ -269,6 +269,10 @@ void drawBrush(Session& session, const KeyMap& keys) {
     };
     percent("Flow", "flow", brush.flow,
             keys.withKeys("What one dab adds", {Action::Strength}).c_str());
+    bool heedsPressure = session.paint.heedsPressure;
+    if (hasPen && ImGui::Checkbox("Pen pressure scales the flow", &heedsPressure)) {
+        session.perform({"brush.pressure", {{"on", heedsPressure}}});
+    }
     percent("Opacity", "opacity", brush.opacity, "What one stroke reaches at most");
     percent("Hardness", "hardness", brush.hardness,
             "Part of the radius at full strength; the rest falls off smoothly");
@@ -340,7 +344,7 @@ void drawBrushPanel(const LayoutContext& context) {
         }
         tooltip("Applies the operator to all that is selected");
     }
-    drawBrush(session, context.preferences.keys);
+    drawBrush(session, context.preferences.keys, context.state.hasPen);
     drawSelection(session);
     drawHistory(session, context.preferences.keys);
 }

@@ -1,12 +1,9 @@
 #pragma once
 
-#include "ui/preferences.h"
+#include "ui/layout_state.h"
 
 namespace celadon::ui {
 
-/// @param keyWantedFor set when the next key that is pressed is to be an action's
-/// @return whether something was changed
-bool drawPreferencesWindow(Preferences& preferences, bool& isShown,
-                           std::optional<Action>& keyWantedFor, float scale);
+void drawPreferencesWindow(const LayoutContext& context);
 
 } // namespace celadon::ui

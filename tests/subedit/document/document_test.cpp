@@ -364,6 +364,49 @@ TEST(Document, AnEditThatIsGivenUpLeavesNothing) {
     }
 }
 
+TEST(Document, UndoAndRedoThatAreGivenUpLeaveNothing) {
+    struct GivenUp {};
+    constexpr int kLarge = 256;
+    constexpr int kEdits = 40; // of which none but the first is kept, so undoing takes its time
+    DocumentSettings settings;
+    settings.profileBytes = 0;
+    Document document(test::varyingMaterial(kLarge, kLarge, 16),
+                      std::make_shared<Surface>(makeFlatSurface(kLarge, kLarge, 256.0f)), settings);
+    std::vector<float> before;
+    for (int i = 0; i < kEdits; ++i) {
+        before = document.material().logProfile;
+        document.execute(ApplyCommand{ScaleAlbedo{{0.99f, 0.98f, 0.97f}}});
+    }
+    const std::vector<float> after = document.material().logProfile;
+    const auto isDone = [&](auto&& action, int calls) {
+        try {
+            action([&calls](float) {
+                if (calls-- == 0) {
+                    throw GivenUp();
+                }
+            });
+            return true;
+        } catch (const GivenUp&) {
+            return false;
+        }
+    };
+    int asked = 0;
+    while (!isDone([&](const EditProgress& progress) { document.undo(progress); }, asked)) {
+        ++asked;
+        ASSERT_EQ(document.material().logProfile, after);
+        ASSERT_EQ(document.commandCount(), std::size_t{kEdits});
+    }
+    EXPECT_GT(asked, 0);
+    EXPECT_EQ(document.material().logProfile, before);
+    for (asked = 0; !isDone([&](const EditProgress& progress) { document.redo(progress); }, asked);
+         ++asked) {
+        ASSERT_EQ(document.material().logProfile, before);
+        ASSERT_EQ(document.commandCount(), std::size_t{kEdits - 1});
+    }
+    EXPECT_GT(asked, 0);
+    EXPECT_EQ(document.material().logProfile, after);
+}
+
 TEST(Document, AFillTellsHowFarItIs) {
     const auto document = largeDocument();
     std::vector<float> told;
