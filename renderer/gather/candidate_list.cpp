@@ -36,42 +36,44 @@ void within(const Box& box, const float* __restrict x, const float* __restrict y
 
 } // namespace
 
-void CandidateList::Reaches::clear() {
+void CandidateList::Reaches::resize(std::size_t count) {
     for (std::vector<float>* values : {&x, &y, &z, &least, &most}) {
-        values->clear();
+        values->resize(count);
     }
 }
 
-void CandidateList::Reaches::add(const Distances& distances) {
-    x.push_back(distances.from.x);
-    y.push_back(distances.from.y);
-    z.push_back(distances.from.z);
-    least.push_back(distances.least * distances.least);
-    most.push_back(distances.most * distances.most);
+void CandidateList::Reaches::set(std::size_t i, const float* from, float leastMm, float mostMm) {
+    x[i] = from[0];
+    y[i] = from[1];
+    z[i] = from[2];
+    least[i] = leastMm * leastMm;
+    most[i] = mostMm * mostMm;
 }
 
-void CandidateList::clear() {
-    mCandidates.clear();
-    mOwn.clear();
-    mParents.clear();
-}
-
-void CandidateList::add(const gather::Candidate& candidate, const Distances& own,
-                        const Distances& parents) {
-    mCandidates.push_back(candidate);
-    mOwn.add(own);
-    mParents.add(parents);
+void CandidateList::add(const gather::Candidate& candidate, float parentLeast) {
+    if (mCount == mCandidates.size()) {
+        const std::size_t room = 2 * mCount + 256;
+        mCandidates.resize(room);
+        mOwn.resize(room);
+        mParents.resize(room);
+    }
+    mCandidates[mCount] = candidate;
+    mOwn.set(mCount, candidate.position, candidate.least, candidate.most);
+    const bool hasParent = candidate.parentReach > 0.0f;
+    mParents.set(mCount, candidate.parent, parentLeast,
+                 hasParent ? candidate.parentReach : kEverywhere);
+    ++mCount;
 }
 
 void CandidateList::choose(const PointBounds& tile, std::vector<gather::Candidate>& chosen) {
     const Box box{{tile.low.x, tile.low.y, tile.low.z}, {tile.high.x, tile.high.y, tile.high.z}};
-    mCounts.assign(mCandidates.size(), 1);
+    mCounts.assign(mCount, 1);
     for (const Reaches* reaches : {&mOwn, &mParents}) {
         within(box, reaches->x.data(), reaches->y.data(), reaches->z.data(), reaches->least.data(),
-               reaches->most.data(), static_cast<int>(mCounts.size()), mCounts.data());
+               reaches->most.data(), static_cast<int>(mCount), mCounts.data());
     }
     chosen.clear();
-    for (std::size_t i = 0; i < mCounts.size(); ++i) {
+    for (std::size_t i = 0; i < mCount; ++i) {
         if (mCounts[i] != 0) {
             chosen.push_back(mCandidates[i]);
         }

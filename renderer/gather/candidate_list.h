@@ -14,29 +14,22 @@ class CandidateList {
 public:
     static constexpr float kEverywhere = 1e18f; ///< a distance beyond all, mm; its square is finite
 
-    /// Distances within which one counts, from least to most.
-    struct Distances {
-        glm::vec3 from{0.0f};
-        float least = 0.0f;
-        float most = kEverywhere;
-    };
-
-    void clear();
-    /// @param own     from the sample
-    /// @param parents from its parent, if that matters
-    void add(const gather::Candidate& candidate, const Distances& own, const Distances& parents);
+    void clear() { mCount = 0; }
+    /// @param parentLeast  it matters only where some of a tile is that far from its parent
+    void add(const gather::Candidate& candidate, float parentLeast);
 
     /// Those that may count in a tile, in their order.
     void choose(const PointBounds& tile, std::vector<gather::Candidate>& chosen);
 
 private:
-    /// Of all candidates: place, squares of the distances.
+    /// Of all candidates: from where, and squares of the distances.
     struct Reaches {
         std::vector<float> x, y, z, least, most;
-        void clear();
-        void add(const Distances& distances);
+        void resize(std::size_t count);
+        void set(std::size_t i, const float* from, float leastMm, float mostMm);
     };
 
+    std::size_t mCount = 0; ///< of what there is room for
     std::vector<gather::Candidate> mCandidates;
     Reaches mOwn, mParents;
     std::vector<std::int32_t> mCounts; ///< of all candidates: 1 or 0, for one tile

@@ -42,11 +42,14 @@ struct Sample {
     Knots knots;
 };
 
-/// One sample and the distances at which it counts on this tile.
+/// One sample and the distances at which it counts, mm: all that is asked before it does.
 struct Candidate {
     const Sample* sample;
-    const Sample* parent; ///< hierarchical: null where there is none
-    float low, high;      ///< hierarchical: R^k, and R^(k+1) or 0; paper: [low, high)
+    float position[3]; ///< the sample's
+    float least, most; ///< it counts from here, where its ball and its ring begin, to there
+    float parent[3];   ///< hierarchical: its parent's position,
+    float parentReach; ///<   and within which distance of that it counts; 0: there is none
+    float low, high;   ///< hierarchical: R^k, and R^(k+1) or 0
 };
 
 /// A tile of one level of the splatting buffer; pixels that are not covered have rangeMm 0.

@@ -29,8 +29,9 @@ Float outside(float ball, float fade, Float distance) {
 Float hierarchicalWeight(const Candidate& candidate, float fade, Float distance,
                          Float fromParentSquared) {
     Float w = outside(candidate.sample->ball, fade, distance);
-    if (candidate.parent != nullptr) {
-        w = w * (L::set(1.0f) - outside(candidate.parent->ball, fade, L::sqrt(fromParentSquared)));
+    if (candidate.parentReach > 0.0f) { // where its ball has faded out
+        const float ball = candidate.parentReach / (1.0f + fade);
+        w = w * (L::set(1.0f) - outside(ball, fade, L::sqrt(fromParentSquared)));
     }
     if (candidate.low > 0.0f) {
         w = w * smoothStep(kRingLow * candidate.low, kRingHigh * candidate.low, distance);
@@ -41,26 +42,6 @@ Float hierarchicalWeight(const Candidate& candidate, float fade, Float distance,
     }
     return w;
 }
-
-/// Distances at which a candidate counts: from the sample in [least, most), from its parent below
-/// `parent`.
-struct Reach {
-    float least, most, parent;
-
-    Reach(const Candidate& candidate, const Solve& solve)
-        : least(candidate.low),
-          most(candidate.sample->knots.rangeMm),
-          parent(candidate.parent != nullptr ? (1.0f + solve.fade) * candidate.parent->ball
-                                             : 0.0f) {
-        float end = candidate.high;
-        if (solve.hierarchical) {
-            least *= kRingLow;
-            least = candidate.sample->ball > least ? candidate.sample->ball : least;
-            end = end > 0.0f ? end * kRingHigh : most;
-        }
-        most = end < most ? end : most;
-    }
-};
 
 struct Offsets {
     Float x, y, z;
@@ -84,14 +65,14 @@ public:
     }
 
     /// Rows that a candidate may reach, a bit each.
-    [[nodiscard]] unsigned reached(const Candidate& candidate, const Reach& reach) const {
+    [[nodiscard]] unsigned reached(const Candidate& candidate) const {
         const Float radius = L::load(mRadius);
-        const Float distance = distanceFrom(candidate.sample->position);
-        Mask where = L::both(L::less(distance - radius, L::set(reach.most)),
-                             L::atMost(L::set(reach.least), distance + radius));
-        if (candidate.parent != nullptr) {
-            where = L::both(where, L::less(distanceFrom(candidate.parent->position) - radius,
-                                           L::set(reach.parent)));
+        const Float distance = distanceFrom(candidate.position);
+        Mask where = L::both(L::less(distance - radius, L::set(candidate.most)),
+                             L::atMost(L::set(candidate.least), distance + radius));
+        if (candidate.parentReach > 0.0f) {
+            where = L::both(where, L::less(distanceFrom(candidate.parent) - radius,
+                                           L::set(candidate.parentReach)));
         }
         return L::bits(where);
     }
@@ -142,10 +123,9 @@ public:
     }
 
     void add(const Candidate& candidate) {
-        const Reach reach(candidate, mSolve);
-        const int count = collect(candidate, reach);
+        const int count = collect(candidate);
         if (count > 0) {
-            queue(candidate, reach.least, count);
+            queue(candidate, count);
         }
     }
 
@@ -175,25 +155,30 @@ private:
     using Wide = PairQueue<kWideColumns + kKnotColumns>;
 
     /// Pixels that count, from squared distances alone.
-    int collect(const Candidate& candidate, const Reach& reach) {
+    int collect(const Candidate& candidate) {
         const auto square = [](float x) { return L::set(x * x); };
         const bool inclusive = !mSolve.hierarchical;
         int count = 0;
-        for (unsigned rows = mRows.reached(candidate, reach); rows != 0; rows &= rows - 1) {
+        unsigned rows = mRows.reached(candidate);
+        if (rows != 0) {
+            __builtin_prefetch(candidate.sample);
+            __builtin_prefetch(&candidate.sample->knots);
+        }
+        for (; rows != 0; rows &= rows - 1) {
             const int first = __builtin_ctz(rows) * L::kCount;
             const Float x = L::load(mTile.x + first);
             const Float y = L::load(mTile.y + first);
             const Float z = L::load(mTile.z + first);
-            const Offsets d(x, y, z, candidate.sample->position);
+            const Offsets d(x, y, z, candidate.position);
             const Float squared = d.squared();
             Mask where = L::both(L::less(L::set(0.0f), L::load(mTile.rangeMm + first)),
-                                 L::less(squared, square(reach.most)));
-            where = L::both(where, inclusive ? L::atMost(square(reach.least), squared)
-                                             : L::less(square(reach.least), squared));
+                                 L::less(squared, square(candidate.most)));
+            where = L::both(where, inclusive ? L::atMost(square(candidate.least), squared)
+                                             : L::less(square(candidate.least), squared));
             Float fromParentSquared = squared;
-            if (candidate.parent != nullptr) {
-                fromParentSquared = Offsets(x, y, z, candidate.parent->position).squared();
-                where = L::both(where, L::less(fromParentSquared, square(reach.parent)));
+            if (candidate.parentReach > 0.0f) {
+                fromParentSquared = Offsets(x, y, z, candidate.parent).squared();
+                where = L::both(where, L::less(fromParentSquared, square(candidate.parentReach)));
             }
             const unsigned bits = L::bits(where);
             if (bits == 0) {
@@ -211,11 +196,11 @@ private:
     }
 
     /// Weights and blurs of the pixels collected.
-    void queue(const Candidate& candidate, float leastMm, int count) {
+    void queue(const Candidate& candidate, int count) {
         const Sample& sample = *candidate.sample;
         // Profiles of a painted map are more than a cache holds; most pairs are near the least
         // distance.
-        const auto nearest = static_cast<int>(leastMm * sample.knots.perMm) * kKnotCodes;
+        const auto nearest = static_cast<int>(candidate.least * sample.knots.perMm) * kKnotCodes;
         __builtin_prefetch(mSolve.codes + sample.profile + nearest);
         __builtin_prefetch(mSolve.codes + sample.profile + nearest + 8 * kKnotCodes);
         const Float variance = L::set(sample.variance);

@@ -280,8 +280,9 @@ void SampleTree::arrange(std::size_t level) {
     balls.resize(nodes.size() + kSiblings - 1);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const TreeNode& node = nodes[i];
-        balls[i] = {node.position[0], node.position[1], node.position[2], node.ball,
-                    node.extent,      node.first,       node.children};
+        balls[i] = {node.position[0], node.position[1], node.position[2],
+                    node.ball,        node.extent,      mLevels[level].samples[i].knots.rangeMm,
+                    node.first,       node.children};
     }
 }
 

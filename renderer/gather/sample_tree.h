@@ -61,6 +61,7 @@ public:
     struct alignas(32) NodeBall {
         float x, y, z, ball;
         float extent;
+        float range; ///< r_s of the sample's own profile
         std::uint32_t first, children;
     };
     static constexpr std::size_t kSiblings = 4; ///< at most

@@ -20,6 +20,7 @@ struct Job {
     const SampleTree& tree;
     const GatherMaterials& materials;
     const ViewTexels& view;
+    const PixelTiles& tiles;
     int level, levelCount;
     const GatherSettings& settings;
     const GatherChange* change; ///< null: everything is gathered
@@ -30,12 +31,6 @@ struct Job {
                 settings.hierarchical, settings.fade};
     }
 };
-
-/// Tiles on a side of a block. Coarser pixels lie farther apart: their neighbors share less.
-constexpr int blockSide(int level) {
-    return std::max(4 >> level, 1);
-}
-constexpr std::size_t kMostTiles = std::size_t{blockSide(0)} * blockSide(0);
 
 class Worker {
 public:
@@ -50,23 +45,18 @@ public:
 
     /// Brings a block of tiles up to date. Neighbors count much the same samples: the tree is
     /// walked once for all of them.
-    void gather(glm::ivec2 block) {
+    void gather(std::size_t block) {
+        const std::size_t first = mJob.tiles.firstTile(block);
+        const std::size_t end = mJob.tiles.endTile(block);
         mBlock = {};
-        std::array<PointBounds, kMostTiles> bounds;
-        const int side = blockSide(mJob.level);
-        const auto count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-        for (std::size_t i = 0; i < count; ++i) {
-            if (mLoader.locate(mJob.view, cornerOf(block, i))) {
-                bounds[i] = mLoader.bounds;
-                mBlock.add(bounds[i].low);
-                mBlock.add(bounds[i].high);
-            }
+        for (std::size_t i = first; i < end; ++i) {
+            const PointBounds tile = mJob.tiles.bounds(i);
+            mBlock.add(tile.low);
+            mBlock.add(tile.high);
         }
         mIsListed = mIsChangeListed = false;
-        for (std::size_t i = 0; i < count; ++i) {
-            if (bounds[i].low.x <= bounds[i].high.x) {
-                gatherTile(cornerOf(block, i));
-            }
+        for (std::size_t i = first; i < end; ++i) {
+            gatherTile(mJob.tiles.tile(i));
         }
     }
 
@@ -75,27 +65,21 @@ public:
 private:
     static constexpr std::size_t kFew = 64; ///< candidates: fewer than most tiles have
 
-    [[nodiscard]] glm::ivec2 cornerOf(glm::ivec2 block, std::size_t tile) const {
-        const auto side = static_cast<std::size_t>(blockSide(mJob.level));
-        return block + glm::ivec2(tile % side, tile / side) * gather::kTileSide;
-    }
-
-    void gatherTile(glm::ivec2 corner) {
-        static_cast<void>(mLoader.locate(mJob.view, corner));
-        if (mJob.change != nullptr && !mLoader.dependsOn(mJob.view, corner, mJob.change->texels) &&
-            gatherChange(corner)) {
+    void gatherTile(PixelTiles::Tile pixels) {
+        mLoader.locate(mJob.view, pixels);
+        if (mJob.change != nullptr && !mLoader.dependsOn(mJob.change->texels) && gatherChange()) {
             return;
         }
         listed().choose(mLoader.bounds, mFound);
-        mLoader.loadProfiles(mJob.view, corner);
+        mLoader.loadProfiles();
         const std::uint64_t added = addPairs(mFound, mJob.tree);
-        mLoader.store(mJob.view, corner, added);
+        mLoader.store(added);
         mPairs += added;
     }
 
     /// Takes away what changed samples brought and adds what they bring now.
     /// @return false where gathering all again costs no more
-    bool gatherChange(glm::ivec2 corner) {
+    bool gatherChange() {
         listChange();
         mListedCome.choose(mLoader.bounds, mFound);
         mListedGone.choose(mLoader.bounds, mGone);
@@ -108,7 +92,7 @@ private:
                 return false;
             }
         }
-        mLoader.loadProfiles(mJob.view, corner);
+        mLoader.loadProfiles();
         mPairs += addPairs(mGone, mJob.change->tree.before());
         for (auto& sum : mLoader.tile.sums) {
             for (float& value : sum) {
@@ -116,7 +100,7 @@ private:
             }
         }
         mPairs += addPairs(mFound, mJob.tree);
-        mLoader.add(mJob.view, corner);
+        mLoader.add();
         return true;
     }
 
@@ -156,17 +140,17 @@ private:
 } // namespace
 
 std::uint64_t gatherLevel(const SampleTree& tree, const GatherMaterials& materials,
-                          const ViewTexels& view, int level, int levelCount,
-                          const GatherSettings& settings, const GatherChange* change) {
-    const int pixels = blockSide(level) * gather::kTileSide;
-    const glm::ivec2 blocks = (view.size + pixels - 1) / pixels;
-    const Job job{tree,       materials, view,   level,
-                  levelCount, settings,  change, gather::choosePairFunction()};
+                          const ViewTexels& view, const PixelTiles& tiles, int level,
+                          int levelCount, const GatherSettings& settings,
+                          const GatherChange* change) {
+    const Job job{tree,     materials, view,
+                  tiles,    level,     levelCount,
+                  settings, change,    gather::choosePairFunction()};
     tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(job); });
-    tbb::parallel_for(tbb::blocked_range<int>(0, blocks.x * blocks.y), [&](const auto& range) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tiles.blocks()), [&](const auto& range) {
         Worker& worker = workers.local();
-        for (int i = range.begin(); i < range.end(); ++i) {
-            worker.gather(glm::ivec2(i % blocks.x, i / blocks.x) * pixels);
+        for (std::size_t i = range.begin(); i < range.end(); ++i) {
+            worker.gather(i);
         }
     });
     std::uint64_t pairs = 0;

@@ -1,8 +1,10 @@
 #pragma once
 
 #include "renderer/gather/gather_materials.h"
+#include "renderer/gather/pixel_tiles.h"
 #include "renderer/gather/sample_tree.h"
 #include "renderer/gather/tree_change.h"
+#include "renderer/gather/view_texels.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -15,14 +17,6 @@
 /// at each level of the splatting buffer. The same sums as the raster path (DESIGN 3.3). No GL
 /// here.
 namespace celadon {
-
-/// One level of the splatting buffer: RGBA, rows from the bottom.
-struct ViewTexels {
-    glm::ivec2 size{0};
-    const float* positions = nullptr; ///< xyz mm, view depth; 0 depth: background
-    const float* surfaces = nullptr;  ///< u, v, material (< 0: not scattering), R_P
-    float* exitance = nullptr;        ///< 1e-6 W/mm^2, that is W/m^2; alpha counts pairs
-};
 
 /// Texels of a material that were edited.
 struct TexelChange {
@@ -50,13 +44,15 @@ struct GatherSettings {
 
 /// Writes what the tree's samples bring to one level of the splatting buffer, where something
 /// scatters. @return pairs
+/// @param tiles   of `view` at this level
 /// @param level   which of `levelCount`
 /// @param change  null: all is gathered. Else what the changed samples brought is taken away from
 ///                the sums, and what they bring now added: what gathering all again would find, but
 ///                for rounding (1e-6 of the brightest). Tiles that nothing of it reaches stay as
 ///                they are, bit for bit. Hierarchical only.
 std::uint64_t gatherLevel(const SampleTree& tree, const GatherMaterials& materials,
-                          const ViewTexels& view, int level, int levelCount,
-                          const GatherSettings& settings, const GatherChange* change = nullptr);
+                          const ViewTexels& view, const PixelTiles& tiles, int level,
+                          int levelCount, const GatherSettings& settings,
+                          const GatherChange* change = nullptr);
 
 } // namespace celadon

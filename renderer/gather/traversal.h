@@ -60,9 +60,8 @@ private:
 
     /// What siblings need of their parent.
     struct Parent {
-        const gather::Sample* sample = nullptr; ///< null: none that is used
-        float ball = 0.0f;                      ///< of one that is used, mm
-        bool isInside = false;                  ///< of the block something lies beyond the ball
+        const SampleTree::NodeBall* node = nullptr; ///< null: none that is used
+        bool isInside = false;                      ///< of the block something lies beyond the ball
     };
 
     [[nodiscard]] float depthOf(const float* p) const {
@@ -105,6 +104,7 @@ private:
         const Four z = __builtin_shufflevector(abZBall, cdZBall, 0, 1, 4, 5);
         const Four ball = __builtin_shufflevector(abZBall, cdZBall, 2, 3, 6, 7);
         const Four extent{nodes[0].extent, nodes[1].extent, nodes[2].extent, nodes[3].extent};
+        const Four range{nodes[0].range, nodes[1].range, nodes[2].range, nodes[3].range};
         const glm::vec3& low = mBounds.low;
         const glm::vec3& high = mBounds.high;
         // Squares of the least and greatest distance of the block.
@@ -128,7 +128,7 @@ private:
         const Four end = nextRings(depth);
         const FourMasks isUsed = ball < SampleTree::kNeverUsed;
         const Four usedBall = isUsed ? ball : none;
-        FourMasks counts = isReached & isUsed & (nearest < mRangeMm * mRangeMm) &
+        FourMasks counts = isReached & isUsed & (nearest < range * range) &
                            (farthest >= square(usedBall)) & (start < mRangeMm) &
                            (farthest > square(gather::kRingLow * start)) &
                            (nearest < square(gather::kRingHigh * end));
@@ -141,6 +141,13 @@ private:
         const FourMasks isInside = farthest >= square(usedBall);
         std::memcpy(insides.data(), &isInside, sizeof(isInside));
         for (int i = 0; i < count; ++i) {
+            if (descendsTo[static_cast<std::size_t>(i)] != 0) {
+                const auto* const below = mTree.levels()[level - 1].balls.data() + nodes[i].first;
+                __builtin_prefetch(below);
+                __builtin_prefetch(below + 2);
+            }
+        }
+        for (int i = 0; i < count; ++i) {
             const auto lane = static_cast<std::size_t>(i);
             if ((countsOf[lane] | descendsTo[lane]) == 0) {
                 continue;
@@ -149,34 +156,40 @@ private:
             // Of changes: what did not change itself counts where it stands in for a parent that
             // did.
             const bool isChanged = mOnly == nullptr || mOnly->at(level, index);
-            if (countsOf[lane] != 0 &&
-                (isChanged || (parent.sample != nullptr && parent.isInside))) {
-                add(level, index, parent, start[i], end[i], isChanged);
+            if (countsOf[lane] != 0 && (isChanged || (parent.node != nullptr && parent.isInside))) {
+                add(mTree.levels()[level].samples[index], nodes[i], parent, start[i], end[i],
+                    isChanged);
             }
             if (descendsTo[lane] != 0 && isChanged) {
                 const SampleTree::NodeBall& node = nodes[i];
                 const bool stands = node.ball < SampleTree::kNeverUsed;
                 visitSiblings(level - 1, node.first, static_cast<int>(node.children),
-                              stands ? Parent{&mTree.levels()[level].samples[index], node.ball,
-                                              insides[lane] != 0}
-                                     : Parent{});
+                              stands ? Parent{&node, insides[lane] != 0} : Parent{});
             }
         }
     }
 
-    void add(std::size_t level, std::uint32_t index, const Parent& parent, float start, float end,
-             bool isOwn) {
-        const gather::Sample& sample = mTree.levels()[level].samples[index];
+    void add(const gather::Sample& sample, const SampleTree::NodeBall& node, const Parent& parent,
+             float start, float end, bool isOwn) {
         const bool isLast = end >= kEverywhere;
-        CandidateList::Distances own{
-            glm::make_vec3(sample.position), std::max(sample.ball, gather::kRingLow * start),
-            isLast ? mRangeMm : std::min(mRangeMm, gather::kRingHigh * end)};
-        CandidateList::Distances parents;
-        if (parent.sample != nullptr) {
-            parents = {glm::make_vec3(parent.sample->position), isOwn ? 0.0f : parent.ball,
-                       (1.0f + mSettings.fade) * parent.ball};
+        gather::Candidate candidate{};
+        candidate.sample = &sample;
+        setPosition(candidate.position, node);
+        candidate.least = std::max(node.ball, gather::kRingLow * start);
+        candidate.most = isLast ? node.range : std::min(node.range, gather::kRingHigh * end);
+        candidate.low = start;
+        candidate.high = isLast ? 0.0f : end;
+        if (parent.node != nullptr) {
+            setPosition(candidate.parent, *parent.node);
+            candidate.parentReach = (1.0f + mSettings.fade) * parent.node->ball;
         }
-        mFound->add({&sample, parent.sample, start, isLast ? 0.0f : end}, own, parents);
+        mFound->add(candidate, isOwn || parent.node == nullptr ? 0.0f : parent.node->ball);
+    }
+
+    static void setPosition(float* position, const SampleTree::NodeBall& node) {
+        position[0] = node.x;
+        position[1] = node.y;
+        position[2] = node.z;
     }
 
     /// R_min^k of a sample; see raster_splat.vert.
@@ -215,8 +228,13 @@ private:
             }
         }
         if (low < high && distances.x < high && distances.y >= low) {
-            mFound->add({&nodes.samples[index], nullptr, low, high},
-                        {glm::make_vec3(node.position), low, high}, {});
+            const gather::Sample& sample = nodes.samples[index];
+            gather::Candidate candidate{};
+            candidate.sample = &sample;
+            std::copy_n(node.position, 3, candidate.position);
+            candidate.least = candidate.low = low;
+            candidate.most = candidate.high = std::min(high, sample.knots.rangeMm);
+            mFound->add(candidate, 0.0f);
         }
     }
 

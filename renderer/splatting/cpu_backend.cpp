@@ -100,6 +100,8 @@ void CpuBackend::begin(const SolveInput& input) {
             ViewLevel& level = mView[static_cast<std::size_t>(k)];
             read(input.view.positions(), k, level.positions);
             read(input.view.surfaces(), k, level.surfaces);
+            level.tiles = PixelTiles(
+                {mExitance.size2d(k), level.positions.data(), level.surfaces.data(), nullptr}, k);
         }
         for (LightState& state : mLights) {
             state.isCurrent.clear();
@@ -229,8 +231,8 @@ void CpuBackend::gather(LightState& state, const SolveInput& input, gl::StageTim
             change.emplace(GatherChange{*treeChange, changes});
         }
         mGatheredPairs +=
-            gatherLevel(state.tree, mMaterials, texels, number, static_cast<int>(levels), mGather,
-                        change ? &*change : nullptr);
+            gatherLevel(state.tree, mMaterials, texels, level.tiles, number,
+                        static_cast<int>(levels), mGather, change ? &*change : nullptr);
         state.isCurrent[k] = true;
         addTo(level.exitance, exitance);
     }

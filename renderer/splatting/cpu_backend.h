@@ -62,6 +62,7 @@ private:
     gl::Texture mExitance;
     struct ViewLevel {
         std::vector<float> positions, surfaces, exitance;
+        PixelTiles tiles;
     };
     std::vector<ViewLevel> mView;
     std::uint64_t mViewDrawn = 0;    ///< SplattingBuffer::drawn() of mView

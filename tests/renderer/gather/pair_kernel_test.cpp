@@ -113,13 +113,32 @@ TileCase makeSetup(const CodedProfiles& profiles, bool shared, float spread, uns
     return setup;
 }
 
+constexpr float kFade = 0.6f;
+
+Candidate candidateOf(const Sample& sample, const Sample* parent, float low, float high,
+                      bool hierarchical) {
+    Candidate candidate{};
+    candidate.sample = &sample;
+    std::copy_n(sample.position, 3, candidate.position);
+    candidate.low = low;
+    candidate.high = high;
+    candidate.least = hierarchical ? std::max(sample.ball, kRingLow * low) : low;
+    const float end = hierarchical ? kRingHigh * high : high;
+    candidate.most = end > 0.0f ? std::min(end, sample.knots.rangeMm) : sample.knots.rangeMm;
+    if (parent != nullptr) {
+        std::copy_n(parent->position, 3, candidate.parent);
+        candidate.parentReach = (1.0f + kFade) * parent->ball;
+    }
+    return candidate;
+}
+
 /// Points may lie on either side of a hard border: the lists say which rings are used.
 void useRings(TileCase& setup, bool hierarchical) {
     setup.candidates.clear();
     for (std::size_t i = 0; i + 1 < setup.samples.size(); ++i) {
-        setup.candidates.push_back(
-            {&setup.samples[i], hierarchical && i % 2 == 0 ? &setup.samples[i + 1] : nullptr,
-             i % 4 == 0 ? 0.0f : 2.0f, i % 5 == 0 && hierarchical ? 0.0f : 15.0f});
+        setup.candidates.push_back(candidateOf(
+            setup.samples[i], hierarchical && i % 2 == 0 ? &setup.samples[i + 1] : nullptr,
+            i % 4 == 0 ? 0.0f : 2.0f, i % 5 == 0 && hierarchical ? 0.0f : 15.0f, hierarchical));
     }
 }
 
@@ -133,7 +152,7 @@ TEST_P(PairKernel, InstructionSetsAgree) {
             for (const float spread : {0.0f, 0.5f, 30.0f}) { // narrow, three distances, wide
                 TileCase setup = makeSetup(profiles, shared, spread, 7);
                 useRings(setup, hierarchical);
-                const Solve solve{profiles.scale, profiles.codes.data(), kind, hierarchical, 0.6f};
+                const Solve solve{profiles.scale, profiles.codes.data(), kind, hierarchical, kFade};
                 Tile expected = setup.tile;
                 const std::uint64_t pairs =
                     addPairsPortable(expected, setup.candidates.data(),
@@ -166,8 +185,8 @@ TEST_P(PairKernel, IsTheSumOverPoints) {
     const CodedProfiles profiles(GetParam());
     TileCase setup = makeSetup(profiles, false, 0.0f, 3);
     useRings(setup, false);
-    const Solve same{profiles.scale, profiles.codes.data(), Profiles::SameKnots, false, 0.6f};
-    const Solve any{profiles.scale, profiles.codes.data(), Profiles::Any, false, 0.6f};
+    const Solve same{profiles.scale, profiles.codes.data(), Profiles::SameKnots, false, kFade};
+    const Solve any{profiles.scale, profiles.codes.data(), Profiles::Any, false, kFade};
     for (const Solve& solve : {same, any})
         for (const Kernel& kernel : kernels()) {
             if (!kernel.runs) {
