@@ -54,6 +54,10 @@ private:
     void worldOpened();
     void offerRecovery();
     void takeKey(KeyChord pressed);
+    void act(Action action) {
+        performAction(action,
+                      {mSession, mTools, mViewport.rect(), mLayout, mActions, mPreferences.keys});
+    }
     /// Turntable and motion go on with the clock, as fast as pictures come. @return whether they
     /// did
     bool play();
@@ -135,7 +139,8 @@ Editor::Editor(const EditorOptions& options)
     }
     keepJournal();
     setActions();
-    addWindowCommands(mSession, {mLayout, mFiles, mTools, mViewport, mJobs});
+    addWindowCommands(mSession, {mLayout, mFiles, mTools, mViewport, mJobs,
+                                 [this](Action action) { act(action); }});
     addPreferencesCommands(mSession.dispatcher(), mPreferences, [this] {
         applyPreferences();
         mWindow.setScale(
@@ -553,8 +558,7 @@ void Editor::handleInput() {
             }
             if (action && (!event.isRepeated || repeats(*action)) && !io.WantTextInput &&
                 !mFiles.isAsking()) {
-                performAction(*action, {mSession, mTools, mViewport.rect(), mLayout, mActions,
-                                        mPreferences.keys});
+                act(*action);
             }
             continue;
         }

@@ -1,5 +1,7 @@
 #include "ui/key_map.h"
 
+#include "subedit/errors.h"
+
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
@@ -177,6 +179,15 @@ std::span<const ActionInfo> actionInfos() {
 
 const char* actionName(Action action) {
     return kActions[static_cast<std::size_t>(action)].name;
+}
+
+Action parseAction(std::string_view name) {
+    for (const ActionInfo& info : kActions) {
+        if (info.name == name) {
+            return info.action;
+        }
+    }
+    throw UsageError(fmt::format("action '{}'", name), "there is no such action");
 }
 
 KeyMap::KeyMap() {

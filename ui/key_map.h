@@ -79,6 +79,8 @@ struct ActionInfo {
 [[nodiscard]] std::span<const ActionInfo> actionInfos();
 /// In files and commands.
 [[nodiscard]] const char* actionName(Action action);
+/// @throws UsageError
+[[nodiscard]] Action parseAction(std::string_view name);
 
 class KeyMap {
 public:

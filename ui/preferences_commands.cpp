@@ -21,16 +21,6 @@ Theme parseTheme(const std::string& name) {
                      "choose dark, gray or light");
 }
 
-Action parseAction(const std::string& name) {
-    const auto infos = actionInfos();
-    const auto found =
-        std::ranges::find_if(infos, [&](const ActionInfo& info) { return info.name == name; });
-    if (found == infos.end()) {
-        throw UsageError(fmt::format("action '{}'", name), "there is no such action");
-    }
-    return found->action;
-}
-
 Preferences changed(Preferences preferences, const Arguments& a) {
     if (a.has("theme")) {
         preferences.theme = parseTheme(a.text("theme"));

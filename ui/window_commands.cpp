@@ -31,6 +31,9 @@ void addLooks(Dispatcher& commands, const WindowTargets& t) {
     });
     add("window.scroll", "Scrolls the side bar, 0 top to 1 bottom",
         [t](const Arguments& a) { t.layout.scrollTo = a.numberWithin("to", 0.0, 1.0); });
+    add("window.act",
+        "What the key of an action does: action, by its name in the preferences' file",
+        [t](const Arguments& a) { t.act(parseAction(a.text("action"))); });
     add("window.dialog", "Opens a dialog: open, save, unsaved", [t](const Arguments& a) {
         const std::string name = a.text("name");
         if (name == "unsaved") {

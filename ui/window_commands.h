@@ -7,6 +7,8 @@
 #include "ui/viewport.h"
 #include "ui/viewport_tools.h"
 
+#include <functional>
+
 /// Commands that need the window: what it shows, and what is written of its pictures.
 namespace celadon::ui {
 
@@ -17,6 +19,7 @@ struct WindowTargets {
     ViewportTools& tools;
     Viewport& viewport;
     BackgroundJobs& jobs;
+    std::function<void(Action)> act; ///< as if its key were pressed
 };
 
 void addWindowCommands(Session& session, const WindowTargets& targets);
