@@ -99,49 +99,19 @@ void GatherMaterials::encodeLogs(const float* logP, std::size_t count, std::uint
     quantize(logP, count, mScale.offset, 1.0f / mScale.step, codes);
 }
 
-bool GatherMaterials::dependsOn(int material, glm::vec2 uv, const subedit::TexelRect& rect) const {
-    const subedit::MaterialMap& own = map(material);
-    // Texels from the rectangle's middle, the short way around.
-    const auto isNear = [](float t, int size, int low, int extent) {
-        const float middle = static_cast<float>(low) + 0.5f * static_cast<float>(extent);
-        const float offset = t * static_cast<float>(size) - middle;
-        const float around =
-            offset - static_cast<float>(size) * std::round(offset / static_cast<float>(size));
-        return std::abs(around) <= 0.5f * static_cast<float>(extent) + 1.0f;
-    };
-    return isNear(uv.x, own.width, rect.x, rect.width) &&
-           isNear(uv.y, own.height, rect.y, rect.height);
-}
-
-bool GatherMaterials::mayDependOn(int material, glm::vec2 low, glm::vec2 high,
-                                  const subedit::TexelRect& rect) const {
-    const subedit::MaterialMap& own = map(material);
-    // Around the map's border, and beyond it, is left to dependsOn().
-    const auto mayBeNear = [](float from, float to, int size, int begin, int end) {
-        const auto extent = static_cast<float>(size);
-        return from < 0.0f || to > 1.0f || begin < 2 || end > size - 2 ||
-               (to * extent >= static_cast<float>(begin) - 2.0f &&
-                from * extent <= static_cast<float>(end) + 2.0f);
-    };
-    return mayBeNear(low.x, high.x, own.width, rect.x, rect.right()) &&
-           mayBeNear(low.y, high.y, own.height, rect.y, rect.bottom());
-}
-
 void GatherMaterials::encode(int material, glm::vec2 uv, std::uint16_t* codes) const {
-    constexpr std::size_t kMostKnots = subedit::kMaxSegments + 1;
+    constexpr std::size_t kMostValues = 3 * (subedit::kMaxSegments + 1);
     const subedit::MaterialMap& own = map(material);
-    float logP[3 * kMostKnots];
-    float spread[gather::kKnotCodes * kMostKnots];
+    float logP[kMostValues];
+    std::uint16_t packed[kMostValues];
     own.sampleLogProfile(uv, logP);
-    const auto knotCount = static_cast<std::size_t>(own.knots());
-    for (std::size_t k = 0; k < knotCount; ++k) {
-        float* knot = spread + gather::kKnotCodes * k;
-        knot[0] = logP[3 * k];
-        knot[1] = logP[3 * k + 1];
-        knot[2] = logP[3 * k + 2];
-        knot[3] = subedit::kLogProfileFloor;
+    const std::size_t count = 3 * static_cast<std::size_t>(own.knots());
+    encodeLogs(logP, count, packed);
+    for (std::size_t i = 0; i < count; i += 3) {
+        std::copy_n(packed + i, 3, codes);
+        codes[3] = 0; // the floor
+        codes += gather::kKnotCodes;
     }
-    encodeLogs(spread, gather::kKnotCodes * knotCount, codes);
 }
 
 void GatherMaterials::decodeRoots(int material, const std::uint16_t* codes, float* roots) const {

@@ -35,12 +35,6 @@ public:
     /// Codes of the longest profile.
     [[nodiscard]] std::size_t largestProfile() const { return mLargestProfile; }
 
-    /// Whether the profile at a texture coordinate depends on any texel of a rectangle; within a
-    /// texel of it also true.
-    [[nodiscard]] bool dependsOn(int material, glm::vec2 uv, const subedit::TexelRect& rect) const;
-    /// The same of a rectangle of coordinates, but that it may say yes where no place in it does.
-    [[nodiscard]] bool mayDependOn(int material, glm::vec2 low, glm::vec2 high,
-                                   const subedit::TexelRect& rect) const;
     /// Codes of the profile at a texture coordinate: [segments + 1][kKnotCodes].
     void encode(int material, glm::vec2 uv, std::uint16_t* codes) const;
     /// sqrt(P) of such a profile on the common knots, zero beyond its own r_s.

@@ -63,14 +63,11 @@ void segmentEnergies(const float* P, const float* logP, int segments, float h, f
     }
 }
 
-struct Radii {
-    float longest = 0.0f, shortest = 1e30f, cut = 0.0f;
-    float kept[3] = {1.0f, 1.0f, 1.0f};
-};
+} // namespace
 
-/// R_P (energy 0.95) of the longest and the shortest channel, R_cut, and what it keeps.
 /// @param roots, logP  [segments + 1][kKnotCodes]
-Radii radiiOf(const float* roots, const float* logP, int segments, float h, double cutEnergy) {
+SampleTree::Radii SampleTree::radiiOf(const float* roots, const float* logP, int segments, float h,
+                                      double cutEnergy) {
     Radii radii;
     float energy[3][kMostKnots];
     float P[kMostKnots];
@@ -126,9 +123,15 @@ Radii radiiOf(const float* roots, const float* logP, int segments, float h, doub
     return radii;
 }
 
-} // namespace
+void SampleTree::setRadii(Mean& mean, const Radii& radii) {
+    mean.R_P = radii.longest;
+    mean.R_Pmin = radii.shortest;
+    mean.R_cut = radii.cut;
+    std::copy_n(radii.kept, 3, mean.kept);
+}
 
-void SampleTree::makeProfiles(const LightTexels& texels, std::size_t level) {
+void SampleTree::makeProfiles(const LightTexels& texels, std::size_t level,
+                              const SampleTree* before, const ChangedTexels& changed) {
     Level& here = mLevels[level];
     const std::size_t count = here.nodes.size();
     const gather::Knots common = mMaterials->commonKnots();
@@ -145,6 +148,16 @@ void SampleTree::makeProfiles(const LightTexels& texels, std::size_t level) {
     }
     mCodes.resize(end);
     mRoots[level].resize(needsRoots || level > 0 ? count * static_cast<std::size_t>(values) : 0);
+    mRadii[level].resize(level > 0 ? count : 0);
+    mIsNew[level].resize(count);
+    // Roots and radii of what is not new stand where they were made; codes are the other tree's.
+    const auto keep = [&](std::size_t i) {
+        const std::size_t first = here.samples[i].profile;
+        const std::size_t last = i + 1 < count ? here.samples[i + 1].profile : end;
+        std::copy(before->mCodes.begin() + static_cast<std::ptrdiff_t>(first),
+                  before->mCodes.begin() + static_cast<std::ptrdiff_t>(last),
+                  mCodes.begin() + static_cast<std::ptrdiff_t>(first));
+    };
 
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 128), [&](const auto& range) {
         std::vector<float> scratch(mMaterials->largestProfile());
@@ -154,32 +167,48 @@ void SampleTree::makeProfiles(const LightTexels& texels, std::size_t level) {
                                ? nullptr
                                : mRoots[level].data() + i * static_cast<std::size_t>(values);
             Mean& mean = mMeans[level][i];
+            std::uint8_t& isNew = mIsNew[level][i];
+            isNew = before == nullptr ? 1 : 0;
             if (level == 0) {
                 const std::uint32_t code = mMorton[0][i];
                 const std::size_t texel =
                     std::size_t{compactBits(code >> 1)} * static_cast<std::size_t>(texels.stride) +
                     compactBits(code);
                 const glm::vec2 uv(texels.surfaces[4 * texel], texels.surfaces[4 * texel + 1]);
+                if (changed.touch(mean.material, uv)) {
+                    isNew = 1;
+                }
+                if (isNew == 0) {
+                    keep(i);
+                    continue;
+                }
                 mMaterials->encode(mean.material, uv, out);
                 if (roots != nullptr) {
                     mMaterials->decodeRoots(mean.material, out, roots);
                 }
                 continue;
             }
-            std::fill_n(roots, values, 0.0f);
             const TreeNode& node = here.nodes[i];
-            for (std::size_t j = node.first; j < node.first + std::size_t{node.children}; ++j) {
+            const std::size_t endChild = node.first + std::size_t{node.children};
+            for (std::size_t j = node.first; j < endChild; ++j) {
+                isNew = std::max(isNew, mIsNew[level - 1][j]);
+            }
+            Radii& radii = mRadii[level][i];
+            if (isNew == 0) {
+                keep(i);
+                setRadii(mean, radii);
+                continue;
+            }
+            std::fill_n(roots, values, 0.0f);
+            for (std::size_t j = node.first; j < endChild; ++j) {
                 addRoots(mRoots[level - 1].data() + j * static_cast<std::size_t>(values),
                          mMeans[level - 1][j].weight / mean.weight, values, roots);
             }
             logsOf(roots, values, scratch.data());
             mMaterials->encodeLogs(scratch.data(), static_cast<std::size_t>(values), out);
-            const Radii radii = radiiOf(roots, scratch.data(), common.segments, 1.0f / common.perMm,
-                                        mSettings.cutEnergy);
-            mean.R_P = radii.longest;
-            mean.R_Pmin = radii.shortest;
-            mean.R_cut = radii.cut;
-            std::copy_n(radii.kept, 3, mean.kept);
+            radii = radiiOf(roots, scratch.data(), common.segments, 1.0f / common.perMm,
+                            mSettings.cutEnergy);
+            setRadii(mean, radii);
         }
     });
 }

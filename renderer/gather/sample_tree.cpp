@@ -24,7 +24,8 @@ float lengthOf(const float* a, const float* b) {
 } // namespace
 
 void SampleTree::build(const LightTexels& texels, const GatherMaterials& materials,
-                       const TreeSettings& settings) {
+                       const TreeSettings& settings, const SampleTree* before,
+                       const ChangedTexels& changed) {
     mMaterials = &materials;
     mSettings = settings;
     const int side = static_cast<int>(std::bit_ceil(static_cast<unsigned>(texels.size)));
@@ -34,6 +35,8 @@ void SampleTree::build(const LightTexels& texels, const GatherMaterials& materia
     mMeans.resize(levels);
     mMorton.resize(levels);
     mRoots.resize(levels);
+    mRadii.resize(levels);
+    mIsNew.resize(levels);
     makeLeaves(texels);
     for (std::size_t k = 1; k < levels; ++k) {
         makeParents(k);
@@ -45,8 +48,11 @@ void SampleTree::build(const LightTexels& texels, const GatherMaterials& materia
     }
     const std::size_t used =
         std::min<std::size_t>(levels, static_cast<std::size_t>(settings.levels));
+    if (before != nullptr && before->mMorton != mMorton) {
+        before = nullptr;
+    }
     for (std::size_t k = 0; k < used && !materials.isHomogeneous(); ++k) {
-        makeProfiles(texels, k);
+        makeProfiles(texels, k, before, changed);
     }
     measureDepths(texels);
     for (std::size_t k = 0; k < levels; ++k) {
@@ -73,6 +79,16 @@ void SampleTree::build(const LightTexels& texels, const GatherMaterials& materia
             arrange(k);
         }
     }
+}
+
+SampleTree SampleTree::withoutWorkspace() const {
+    SampleTree copy;
+    copy.mMaterials = mMaterials;
+    copy.mSettings = mSettings;
+    copy.mLevels = mLevels;
+    copy.mMorton = mMorton;
+    copy.mCodes = mCodes;
+    return copy;
 }
 
 void SampleTree::makeLeaves(const LightTexels& texels) {

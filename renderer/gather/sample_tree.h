@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderer/gather/gather_materials.h"
+#include "renderer/gather/changed_texels.h"
 
 #include <array>
 #include <cstdint>
@@ -73,15 +73,23 @@ public:
     };
 
     /// Replaces what was there; memory is reused.
+    /// @param before   null, or the tree of the same texels and settings whose workspace this has
+    ///                 taken: what no change touches is taken from it
+    /// @param changed  since then
     void build(const LightTexels& texels, const GatherMaterials& materials,
-               const TreeSettings& settings);
+               const TreeSettings& settings, const SampleTree* before = nullptr,
+               const ChangedTexels& changed = {});
 
     /// Takes over the memory that only building needs, from a tree that is only compared with from
     /// now on: more than half of it.
     void takeWorkspace(SampleTree& other) {
         mMeans.swap(other.mMeans);
         mRoots.swap(other.mRoots);
+        mRadii.swap(other.mRadii);
     }
+
+    /// A copy without what only building needs.
+    [[nodiscard]] SampleTree withoutWorkspace() const;
 
     /// From the leaves to one root; levels beyond settings.levels only bound their subtrees. Empty
     /// where nothing is lit.
@@ -117,9 +125,20 @@ private:
         std::int32_t material;
     };
 
+    /// R_P (energy 0.95) of a node's longest and shortest channel, R_cut, and what that keeps.
+    struct Radii {
+        float longest = 0.0f, shortest = 1e30f, cut = 0.0f;
+        float kept[3] = {1.0f, 1.0f, 1.0f};
+    };
+    static Radii radiiOf(const float* roots, const float* logP, int segments, float h,
+                         double cutEnergy);
+
+    static void setRadii(Mean& mean, const Radii& radii);
+
     void makeLeaves(const LightTexels& texels);
     void makeParents(std::size_t level);
-    void makeProfiles(const LightTexels& texels, std::size_t level);
+    void makeProfiles(const LightTexels& texels, std::size_t level, const SampleTree* before,
+                      const ChangedTexels& changed);
     void measureDepths(const LightTexels& texels);
     void select(std::size_t level);
     void growBalls(std::size_t level);
@@ -134,6 +153,8 @@ private:
     std::vector<std::vector<Mean>> mMeans;
     std::vector<std::vector<std::uint32_t>> mMorton;
     std::vector<std::vector<float>> mRoots; ///< sqrt(P) of a level's nodes on the common knots
+    std::vector<std::vector<Radii>> mRadii; ///< above level 0
+    std::vector<std::vector<std::uint8_t>> mIsNew; ///< whether a node's profile is not before's
     std::vector<std::vector<std::array<float, 2>>> mDepths; ///< dense: least and greatest, 2^k
     std::vector<std::uint16_t> mCodes;
 };

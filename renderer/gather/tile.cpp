@@ -1,7 +1,6 @@
 #include "renderer/gather/tile.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace celadon {
 
@@ -33,27 +32,11 @@ void TileLoader::locate(const ViewTexels& level, PixelTiles::Tile pixels) {
     }
 }
 
-bool TileLoader::dependsOn(std::span<const TexelChange> changes) const {
-    if (changes.empty()) {
-        return false;
-    }
-    glm::vec2 low(std::numeric_limits<float>::infinity());
-    glm::vec2 high = -low;
+bool TileLoader::dependsOn(const ChangedTexels& changed) const {
     for (std::size_t lane = 0; lane < mPixels.size(); ++lane) {
-        const glm::vec2 uv(surface(lane)[0], surface(lane)[1]);
-        low = glm::min(low, uv);
-        high = glm::max(high, uv);
-    }
-    for (const TexelChange& change : changes) {
-        if (!mMaterials.mayDependOn(change.material, low, high, change.rect)) {
-            continue; // nearly all of them
-        }
-        for (std::size_t lane = 0; lane < mPixels.size(); ++lane) {
-            const float* const at = surface(lane);
-            if (static_cast<int>(at[2]) == change.material &&
-                mMaterials.dependsOn(change.material, {at[0], at[1]}, change.rect)) {
-                return true;
-            }
+        const float* const at = surface(lane);
+        if (changed.touch(static_cast<int>(at[2]), {at[0], at[1]})) {
+            return true;
         }
     }
     return false;

@@ -17,7 +17,7 @@ public:
     /// Finds the places of a tile's pixels.
     void locate(const ViewTexels& level, PixelTiles::Tile pixels);
     /// Whether a pixel's profile depends on changed texels. After locate(), as all that follow.
-    [[nodiscard]] bool dependsOn(std::span<const TexelChange> changes) const;
+    [[nodiscard]] bool dependsOn(const ChangedTexels& changed) const;
     /// Reads the profiles of the pixels, and sets their sums to zero.
     void loadProfiles();
     /// The tile's sums become the level's, and its pairs, spread over its pixels.

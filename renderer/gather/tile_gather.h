@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderer/gather/gather_materials.h"
+#include "renderer/gather/changed_texels.h"
 #include "renderer/gather/pixel_tiles.h"
 #include "renderer/gather/sample_tree.h"
 #include "renderer/gather/tree_change.h"
@@ -11,23 +11,16 @@
 
 #include <cstdint>
 #include <functional>
-#include <span>
 
 /// Splatting turned around: each tile of pixels gathers the samples that reach it, from the tree,
 /// at each level of the splatting buffer. The same sums as the raster path (DESIGN 3.3). No GL
 /// here.
 namespace celadon {
 
-/// Texels of a material that were edited.
-struct TexelChange {
-    int material = 0;
-    subedit::TexelRect rect;
-};
-
 /// What changed since the exitance of a level was gathered, in the same view.
 struct GatherChange {
     const TreeChange& tree;
-    std::span<const TexelChange> texels; ///< of the pixels' own profiles
+    const ChangedTexels& texels; ///< of the pixels' own profiles
 };
 
 struct GatherSettings {

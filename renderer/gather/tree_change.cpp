@@ -31,6 +31,12 @@ TreeChange::TreeChange(const SampleTree& before, const SampleTree& after)
         return;
     }
     mChanged.resize(after.levels().size());
+    if (&before == &after) {
+        for (std::size_t level = 0; level < mChanged.size(); ++level) {
+            mChanged[level].resize(after.levels()[level].nodes.size(), 0);
+        }
+        return;
+    }
     for (std::size_t level = 0; level < mChanged.size() && !mEverything; ++level) {
         compare(level);
         const auto leaves = static_cast<std::ptrdiff_t>(mChanged[0].size());

@@ -12,7 +12,7 @@ namespace celadon {
 
 class TreeChange {
 public:
-    /// Compares two trees of hierarchical samples. Both outlive this.
+    /// Compares two trees of hierarchical samples, which may be one. Both outlive this.
     TreeChange(const SampleTree& before, const SampleTree& after);
 
     /// The trees stand for different texels, or for texels most of which changed: gathering all is

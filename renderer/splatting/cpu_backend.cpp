@@ -85,6 +85,7 @@ void CpuBackend::materialChanged(const MaterialChange& change) {
         addChange(state.changes, {change.material, change.rect});
         if (hasNewCodes) {
             state.isCurrent.clear();
+            state.hasTree = false;
         }
     }
 }
@@ -133,11 +134,14 @@ LightTexels CpuBackend::lightTexels(const LightState& state) const {
     return texels;
 }
 
-void CpuBackend::drawLight(const blocks::LightBlock& light, const SolveInput& input,
+bool CpuBackend::drawLight(const blocks::LightBlock& light, const SolveInput& input,
                            LightState& state) {
     state.texels.resize(IrradianceBuffer::kTargets);
     const bool isDrawn = state.drawnFor && state.geometry == input.geometry &&
                          std::memcmp(&*state.drawnFor, &light, sizeof(light)) == 0;
+    if (isDrawn && state.hasTree && state.changes.empty()) {
+        return true;
+    }
     if (isDrawn) {
         mIrradiance.refreshRadii(state.surfaces);
         read(mIrradiance.extents(), 0, mRadii);
@@ -147,7 +151,7 @@ void CpuBackend::drawLight(const blocks::LightBlock& light, const SolveInput& in
             extents[i + 3] = mRadii[i + 3];
         }
         read(mIrradiance.kepts(), 0, state.texels[6]);
-        return;
+        return true;
     }
     mIrradiance.draw(input.gpuWorld);
     for (int i = 0; i < IrradianceBuffer::kTargets; ++i) {
@@ -161,10 +165,12 @@ void CpuBackend::drawLight(const blocks::LightBlock& light, const SolveInput& in
                        GL_TEXTURE_2D, 0, 0, 0, 0, size.x, size.y, 1);
     state.drawnFor = light;
     state.geometry = input.geometry;
+    return false;
 }
 
 void CpuBackend::buildTree(const blocks::LightBlock& light, const SolveInput& input,
-                           LightState& state) {
+                           LightState& state, const SampleTree* before,
+                           const ChangedTexels& changed) {
     TreeSettings settings;
     settings.hierarchical = mSettings.scheme == Scheme::Hierarchical;
     settings.levels = mSettings.adaptive ? mSettings.irradianceLevels : 1;
@@ -179,7 +185,8 @@ void CpuBackend::buildTree(const blocks::LightBlock& light, const SolveInput& in
     settings.sampleAngle = static_cast<float>(mSettings.sampleAngle);
     settings.fade = static_cast<float>(mSettings.fade);
     settings.fineSpread = static_cast<float>(mSettings.fineSpread);
-    state.tree.build(lightTexels(state), mMaterials, settings);
+    state.tree.build(lightTexels(state), mMaterials, settings, before, changed);
+    state.hasTree = true;
 }
 
 void CpuBackend::add(const SolveInput& input, const LightViews& lightViews, int view,
@@ -190,29 +197,41 @@ void CpuBackend::add(const SolveInput& input, const LightViews& lightViews, int 
     }
     mLastLight = static_cast<std::size_t>(view) % mLights.size();
     LightState& state = mLights[mLastLight];
+    bool isDrawn = false;
     {
         const auto scope = timer.measure("irradianceBuffer");
-        drawLight(light, input, state);
+        isDrawn = drawLight(light, input, state);
+    }
+    const bool isKept = isDrawn && state.hasTree;
+    const bool hasSums = !state.isCurrent.empty();
+    const std::vector<TexelChange> changes = std::exchange(state.changes, {});
+    const ChangedTexels changed(mMaterials, changes);
+    if (isKept && changes.empty()) {
+        if (hasSums && state.before.levels().empty()) {
+            state.before = state.tree.withoutWorkspace(); // memory, while nothing is in a hurry
+        }
+        gather(state, {state.tree, changed}, input, timer);
+        return;
     }
     {
         const auto scope = timer.measure("selection");
-        if (!state.isCurrent.empty()) {
+        if (hasSums) {
             std::swap(state.tree, state.before);
             state.tree.takeWorkspace(state.before);
         }
-        buildTree(light, input, state);
+        buildTree(light, input, state, hasSums && isKept ? &state.before : nullptr, changed);
     }
-    gather(state, input, timer);
+    gather(state, {state.before, changed}, input, timer);
 }
 
-void CpuBackend::gather(LightState& state, const SolveInput& input, gl::StageTimer& timer) {
+void CpuBackend::gather(LightState& state, const Since& since, const SolveInput& input,
+                        gl::StageTimer& timer) {
     const auto levels = mView.size();
     std::optional<TreeChange> treeChange;
     std::vector<bool> wasCurrent = std::exchange(state.isCurrent, std::vector<bool>(levels, false));
     wasCurrent.resize(levels, false);
-    const std::vector<TexelChange> changes = std::exchange(state.changes, {});
     if (mGather.hierarchical && std::ranges::count(wasCurrent, true) > 0) {
-        treeChange.emplace(state.before, state.tree);
+        treeChange.emplace(since.before, state.tree);
     }
     state.exitances.resize(levels);
     for (std::size_t k = 0; k < levels && !input.isInterrupted(); ++k) {
@@ -228,7 +247,7 @@ void CpuBackend::gather(LightState& state, const SolveInput& input, gl::StageTim
                                 level.surfaces.data(), exitance.data()};
         std::optional<GatherChange> change;
         if (keeps) {
-            change.emplace(GatherChange{*treeChange, changes});
+            change.emplace(GatherChange{*treeChange, since.changed});
         }
         mGatheredPairs +=
             gatherLevel(state.tree, mMaterials, texels, level.tiles, number,

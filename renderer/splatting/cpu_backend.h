@@ -45,15 +45,25 @@ private:
         std::vector<std::vector<float>> texels; ///< the irradiance buffer's targets
         gl::Texture surfaces;                   ///< one of them, for new radii
         SampleTree tree;
-        SampleTree before;                         ///< see TreeChange
+        bool hasTree = false; ///< `tree` is of these texels, in the codes in use
+        SampleTree before;    ///< see TreeChange
         std::vector<std::vector<float>> exitances; ///< [level], RGBA as ViewTexels
         std::vector<bool> isCurrent;               ///< [level]: gathered from `tree`
         std::vector<TexelChange> changes;          ///< of materials since
     };
-    void drawLight(const blocks::LightBlock& light, const SolveInput& input, LightState& state);
+    /// @return whether the surface that it shows is as it was
+    bool drawLight(const blocks::LightBlock& light, const SolveInput& input, LightState& state);
     [[nodiscard]] LightTexels lightTexels(const LightState& state) const;
-    void buildTree(const blocks::LightBlock& light, const SolveInput& input, LightState& state);
-    void gather(LightState& state, const SolveInput& input, gl::StageTimer& timer);
+    /// @param before, changed  see SampleTree::build()
+    void buildTree(const blocks::LightBlock& light, const SolveInput& input, LightState& state,
+                   const SampleTree* before, const ChangedTexels& changed);
+    /// Since the sums were gathered.
+    struct Since {
+        const SampleTree& before;
+        const ChangedTexels& changed;
+    };
+    void gather(LightState& state, const Since& since, const SolveInput& input,
+                gl::StageTimer& timer);
 
     SplattingSettings mSettings;
     IrradianceBuffer mIrradiance; ///< level 0 only

@@ -1,5 +1,7 @@
 #include "subedit/map/material_map.h"
 
+#include "subedit/multiversion.h"
+
 #include <cmath>
 
 namespace celadon::subedit {
@@ -16,7 +18,24 @@ LinearTap repeatTap(float t, int size) {
     const float position = (t - std::floor(t)) * static_cast<float>(size) - 0.5f;
     const float base = std::floor(position);
     const int i = static_cast<int>(base);
-    return {(i + size) % size, (i + 1 + size) % size, position - base};
+    return {i < 0 ? size - 1 : i, i + 1 < size ? i + 1 : 0, position - base};
+}
+
+struct FourTexels {
+    const float *p00, *p10, *p01, *p11;
+};
+
+CELADON_MULTIVERSION
+void interpolate(const FourTexels& texels, float x, float y, int count, float* __restrict out) {
+    const float* const p00 = texels.p00;
+    const float* const p10 = texels.p10;
+    const float* const p01 = texels.p01;
+    const float* const p11 = texels.p11;
+    for (int i = 0; i < count; ++i) {
+        const float top = p00[i] + (p10[i] - p00[i]) * x;
+        const float bottom = p01[i] + (p11[i] - p01[i]) * x;
+        out[i] = top + (bottom - top) * y;
+    }
 }
 
 } // namespace
@@ -28,11 +47,7 @@ void MaterialMap::sampleLogProfile(glm::vec2 uv, float* out) const {
     const float* p10 = logProfile.data() + index(tx.second, ty.first, 0);
     const float* p01 = logProfile.data() + index(tx.first, ty.second, 0);
     const float* p11 = logProfile.data() + index(tx.second, ty.second, 0);
-    for (int i = 0; i < knots() * 3; ++i) {
-        const float top = p00[i] + (p10[i] - p00[i]) * tx.weight;
-        const float bottom = p01[i] + (p11[i] - p01[i]) * tx.weight;
-        out[i] = top + (bottom - top) * ty.weight;
-    }
+    interpolate({p00, p10, p01, p11}, tx.weight, ty.weight, knots() * 3, out);
 }
 
 } // namespace celadon::subedit
