@@ -101,7 +101,8 @@ private:
     std::chrono::steady_clock::time_point mPlayedUntil; ///< what turns or plays has come so far
     bool mShouldClose = false;
     int mFramesToDraw = kSettlingFrames;
-    bool mIsDrawing = false; ///< within a frame
+    bool mIsDrawing = false;        ///< within a frame
+    std::vector<InputEvent> mLater; ///< for the next frame
     LongEdit mLongEdit;
     std::chrono::steady_clock::time_point mNextFrame;
     BackgroundJobs mJobs; ///< after all that its results touch
@@ -542,8 +543,16 @@ void Editor::takeKey(KeyChord pressed) {
 void Editor::handleInput() {
     const ImGuiIO& io = ImGui::GetIO();
     mTools.setLightsFirst(mLayout.panelsShown && mLayout.tab == Tab::Light);
-    for (const InputEvent& event : mWindow.takeInput()) {
-        if (mLongEdit.isShown() && event.kind != InputEvent::Kind::Release) {
+    const std::vector<InputEvent> news = mWindow.takeInput();
+    std::vector<InputEvent> events = std::exchange(mLater, {});
+    events.insert(events.end(), news.begin(), news.end());
+    for (const InputEvent& event : events) {
+        // A long edit under way takes no input, but a stroke goes on after it; and what comes after
+        // something that waits for the end of the frame waits too.
+        if (mLongEdit.isShown() ? mTools.isDragging() : mSession.hasWaiting()) {
+            mLater.push_back(event);
+        }
+        if (mLongEdit.isShown() || mSession.hasWaiting()) {
             continue;
         }
         if (event.kind == InputEvent::Kind::Key) {

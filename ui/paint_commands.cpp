@@ -117,8 +117,12 @@ void Session::beginStroke(int material, const subedit::StrokePoint& point, bool 
     Stroke stroke{{makeOperator(paint, inverted), paint.brush, mirror(), {point}}, inverted};
     stroke.selects = paint.tool == Tool::Select;
     stroke.isLive = !stroke.selects && subedit::isLocal(stroke.command.op);
+    if (stroke.isLive && hasWaiting()) { // while it lasts nothing else may change the material
+        performWaiting();
+        beginStroke(material, point, inverted);
+        return;
+    }
     if (stroke.isLive) {
-        performWaiting(); // while it lasts nothing else may change the material
         target->beginStroke(stroke.command);
     }
     mStroke = std::move(stroke);
@@ -151,6 +155,9 @@ void Session::endStroke() {
 }
 
 void Session::finishStroke(int material, const Stroke& stroke) {
+    if (document(material) == nullptr) {
+        return;
+    }
     subedit::Document& target = *document(material);
     subedit::EditCommand edit = stroke.command;
     if (stroke.selects) {

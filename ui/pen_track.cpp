@@ -40,10 +40,13 @@ void PenTrack::match(InputEvent& event) {
     } else if (mNow && !isAt(*mNow, event.positionPx)) {
         mNow.reset();
     }
+    if (!mNow) {
+        return;
+    }
+    event.isEraser = mNow->isEraser;
     // A pen presses with more than nothing: without, it hovers where a mouse clicks.
-    if (mNow && (mNow->pressure > 0.0f || event.kind != InputEvent::Kind::Press)) {
+    if (mNow->pressure > 0.0f || event.kind != InputEvent::Kind::Press) {
         event.pressure = mNow->pressure;
-        event.isEraser = mNow->isEraser;
     }
 }
 

@@ -33,7 +33,7 @@ bool RecoveryRun::advance(bool keepsJournal) {
     const auto begin = Clock::now();
     const std::vector<Command>& commands = mRunning->commands;
     while (mSteps < commands.size() && Clock::now() - begin < kAtOnce) {
-        mGoodSteps += mSession.perform(commands[mSteps++]) ? 1 : 0;
+        mGoodSteps += mSession.performNow(commands[mSteps++]) ? 1 : 0;
     }
     if (mSteps < commands.size()) {
         return false;

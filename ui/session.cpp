@@ -28,6 +28,10 @@ bool Session::perform(const Command& command) {
         mWaiting.push_back([this, command] { mDispatcher.execute(command); });
         return true; // or comes after one that waits
     }
+    return performNow(command);
+}
+
+bool Session::performNow(const Command& command) {
     return attempt([&] { mDispatcher.execute(command); });
 }
 
@@ -64,6 +68,7 @@ void Session::adopt(const OpenRequest& request, OpenedScene scene) {
     }
     const bool isSameModel = mWorld != nullptr && mOpened.model == request.model;
     mStrokeMaterial = -1;
+    mWaiting.clear();
     mShownWorld.reset();
     mMover.reset();
     mWorld = std::make_shared<const World>(std::move(scene.world));

@@ -77,7 +77,11 @@ public:
     /// with somebody to tell, commands that may take long wait for its end (performWaiting()).
     /// @return whether it was done, or waits
     bool perform(const Command& command);
+    /// The same, at once. For what is replayed in an order of its own.
+    bool performNow(const Command& command);
     void performWaiting();
+    /// Something waits: what comes later must not overtake it.
+    [[nodiscard]] bool hasWaiting() const { return !mWaiting.empty(); }
     /// Called now and then while an edit lasts, with its title and how much is done, 0 to 1 or
     /// below 0 where nobody knows. It must not change the session; what it throws ends the edit and
     /// leaves the material as it was. Empty: nobody asks.

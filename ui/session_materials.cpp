@@ -65,8 +65,8 @@ bool Session::undoEdit() {
     if (material < 0) {
         return false;
     }
-    activeMaterial = material;
     document(material)->undo(progressOf("Undo " + document(material)->undoTitle()));
+    activeMaterial = material;
     touchMaterial();
     return true;
 }
@@ -76,8 +76,8 @@ bool Session::redoEdit() {
     if (material < 0) {
         return false;
     }
-    activeMaterial = material;
     document(material)->redo(progressOf("Redo " + document(material)->redoTitle()));
+    activeMaterial = material;
     touchMaterial();
     return true;
 }

@@ -2,7 +2,6 @@
 
 #include "renderer/gather/pair_kernel.h"
 #include "renderer/scene/world.h"
-#include "subedit/map/texel_rect.h"
 
 #include <span>
 #include <vector>

@@ -8,7 +8,6 @@
 /// with other instruction sets, or the linker could pick that copy for all.
 namespace celadon::gather {
 
-inline constexpr int kTileSide = 8;
 inline constexpr int kTilePixels = 64;
 /// A ring fades in and out about its radius between these, in units of it.
 inline constexpr float kRingLow = 0.8f;

@@ -14,7 +14,6 @@ TileLoader::TileLoader(const GatherMaterials& materials)
 void TileLoader::locate(const ViewTexels& level, PixelTiles::Tile pixels) {
     mLevel = &level;
     mPixels = pixels;
-    bounds = {};
     for (std::size_t lane = 0; lane < gather::kTilePixels; ++lane) {
         // Lanes without a pixel repeat the last one, and are not counted.
         const bool isPixel = lane < pixels.size();
@@ -28,7 +27,6 @@ void TileLoader::locate(const ViewTexels& level, PixelTiles::Tile pixels) {
         tile.perMm[lane] = knots.perMm;
         tile.rangeMm[lane] = knots.rangeMm;
         tile.lastSegment[lane] = isPixel ? static_cast<float>(knots.segments - 1) : 0.0f;
-        bounds.add({position[0], position[1], position[2]});
     }
 }
 

@@ -2,7 +2,6 @@
 
 #include "renderer/gather/pixel_tiles.h"
 #include "renderer/gather/tile_gather.h"
-#include "renderer/scene/point_bounds.h"
 
 #include <span>
 #include <vector>
@@ -26,7 +25,6 @@ public:
     void add() const;
 
     gather::Tile tile{};
-    PointBounds bounds;
 
 private:
     [[nodiscard]] const float* surface(std::size_t lane) const {

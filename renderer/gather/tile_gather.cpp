@@ -50,13 +50,12 @@ public:
         const std::size_t end = mJob.tiles.endTile(block);
         mBlock = {};
         for (std::size_t i = first; i < end; ++i) {
-            const PointBounds tile = mJob.tiles.bounds(i);
-            mBlock.add(tile.low);
-            mBlock.add(tile.high);
+            mBlock.add(mJob.tiles.bounds(i).low);
+            mBlock.add(mJob.tiles.bounds(i).high);
         }
         mIsListed = mIsChangeListed = false;
         for (std::size_t i = first; i < end; ++i) {
-            gatherTile(mJob.tiles.tile(i));
+            gatherTile(i);
         }
     }
 
@@ -65,12 +64,13 @@ public:
 private:
     static constexpr std::size_t kFew = 64; ///< candidates: fewer than most tiles have
 
-    void gatherTile(PixelTiles::Tile pixels) {
-        mLoader.locate(mJob.view, pixels);
+    void gatherTile(std::size_t index) {
+        mLoader.locate(mJob.view, mJob.tiles.tile(index));
+        mTile = mJob.tiles.bounds(index);
         if (mJob.change != nullptr && !mLoader.dependsOn(mJob.change->texels) && gatherChange()) {
             return;
         }
-        listed().choose(mLoader.bounds, mFound);
+        listed().choose(mTile, mFound);
         mLoader.loadProfiles();
         const std::uint64_t added = addPairs(mFound, mJob.tree);
         mLoader.store(added);
@@ -81,13 +81,13 @@ private:
     /// @return false where gathering all again costs no more
     bool gatherChange() {
         listChange();
-        mListedCome.choose(mLoader.bounds, mFound);
-        mListedGone.choose(mLoader.bounds, mGone);
+        mListedCome.choose(mTile, mFound);
+        mListedGone.choose(mTile, mGone);
         if (mFound.empty() && mGone.empty()) {
             return true;
         }
         if (const std::size_t both = mFound.size() + mGone.size(); both > kFew) {
-            listed().choose(mLoader.bounds, mAll);
+            listed().choose(mTile, mAll);
             if (both >= mAll.size()) {
                 return false;
             }
@@ -129,7 +129,7 @@ private:
     TileLoader mLoader;
     Traversal mTraversal;
     std::optional<Traversal> mBefore; ///< of the tree that the sums came from
-    PointBounds mBlock;
+    PointBounds mBlock, mTile;
     bool mIsListed = false;       ///< mListed is that of the block
     bool mIsChangeListed = false; ///< mListedCome and mListedGone are
     CandidateList mListed, mListedCome, mListedGone;

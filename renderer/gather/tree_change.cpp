@@ -62,6 +62,10 @@ void TreeChange::compare(std::size_t level) {
                     isChanged = isChanged || mChanged[level - 1][j] != 0;
                 }
                 changed[i] = isChanged ? 1 : 0;
+                // Children fade in where their parent's ball ends.
+                if (level > 0 && a.nodes[i].ball != node.ball) {
+                    std::fill_n(mChanged[level - 1].begin() + node.first, node.children, 1);
+                }
             }
         });
 }

@@ -18,7 +18,8 @@ public:
     /// The trees stand for different texels, or for texels most of which changed: gathering all is
     /// as quick as finding out what to keep.
     [[nodiscard]] bool isEverything() const { return mEverything; }
-    /// Whether a node, or one below it, brings something else or brings it at other distances.
+    /// Whether a node, or one below it, brings something else or brings it at other distances: also
+    /// where only its parent's ball is another one.
     [[nodiscard]] bool at(std::size_t level, std::size_t index) const {
         return mChanged[level][index] != 0;
     }

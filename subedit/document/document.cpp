@@ -224,6 +224,8 @@ void Document::applyMasked(Entry& entry, const EditProgress& progress) {
             restoreTiles(entry);
         }
         undoGrowths(entry);
+        entry.before.clear(); // it may be done again
+        entry.growth.clear();
         throw;
     }
     if (!entry.growth.empty()) {

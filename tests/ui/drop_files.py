@@ -52,7 +52,7 @@ class Source:
         if self.await_answer("XdndStatus")[1] & 1 == 0:
             sys.exit("the window takes no files")
         self.tell("XdndDrop", 0, X.CurrentTime)
-        if self.await_answer("XdndFinished")[1] & 1 == 0:
+        if self.await_answer("XdndFinished")[1] == 0:  # GLFW 3.3 says how many bytes it took
             sys.exit("the window did not take the files")
 
 

@@ -291,6 +291,29 @@ TEST_F(SessionTest, StrokesThatAreWorkedOutAtTheirEndWaitForTheEndOfTheFrame) {
     EXPECT_EQ(session.notices.size(), 0u);
 }
 
+TEST_F(SessionTest, WhatIsRecoveredWaitsForNothing) {
+    const std::vector<float> before = map().logProfile;
+    paintStroke();
+    const Command stroke = recorded.back();
+    session.execute({"edit.undo"});
+    session.onProgress = [](const std::string&, float) {};
+    EXPECT_TRUE(session.performNow(stroke));
+    EXPECT_NE(map().logProfile, before);
+    EXPECT_TRUE(session.performNow({"edit.undo"}));
+    EXPECT_EQ(map().logProfile, before);
+    EXPECT_FALSE(session.hasWaiting());
+    EXPECT_FALSE(session.performNow({"edit.sing"}));
+    // By hand it waits, and all that comes after it.
+    EXPECT_TRUE(session.perform({"edit.redo"}));
+    EXPECT_TRUE(session.perform({"tool.choose", {{"name", "pick"}}}));
+    EXPECT_EQ(map().logProfile, before);
+    EXPECT_EQ(session.paint.tool, Tool::Paint);
+    session.performWaiting();
+    EXPECT_NE(map().logProfile, before);
+    EXPECT_EQ(session.paint.tool, Tool::Pick);
+    EXPECT_EQ(recorded.back().name, "tool.choose");
+}
+
 TEST_F(SessionTest, RefusedCommandsChangeNothingAndBecomeNotices) {
     const Camera camera = session.camera;
     const float radius = session.paint.brush.radiusMm;

@@ -407,6 +407,38 @@ TEST(Document, UndoAndRedoThatAreGivenUpLeaveNothing) {
     EXPECT_EQ(document.material().logProfile, after);
 }
 
+TEST(Document, ARedoThatIsGivenUpWhileProfilesGrowCanBeDoneAndUndone) {
+    struct GivenUp {};
+    const auto document = largeDocument();
+    const std::vector<float> before = document->material().logProfile;
+    const float r_s = document->material().maxRadiusMm;
+    document->execute(ApplyCommand{ScaleRange{{9.0f, 9.0f, 9.0f}}});
+    const std::vector<float> after = document->material().logProfile;
+    ASSERT_GT(document->material().maxRadiusMm, r_s);
+    document->undo();
+    for (int calls = 0;; ++calls) {
+        try {
+            int left = calls;
+            document->redo([&left](float) {
+                if (left-- == 0) {
+                    throw GivenUp();
+                }
+            });
+            EXPECT_GT(calls, 1); // once before the profiles grew, once after
+            break;
+        } catch (const GivenUp&) {
+            ASSERT_EQ(document->material().logProfile, before) << calls;
+            ASSERT_EQ(document->material().maxRadiusMm, r_s);
+        }
+    }
+    EXPECT_EQ(document->material().logProfile, after);
+    ASSERT_TRUE(document->undo());
+    EXPECT_EQ(document->material().logProfile, before);
+    EXPECT_EQ(document->material().maxRadiusMm, r_s);
+    ASSERT_TRUE(document->redo());
+    EXPECT_EQ(document->material().logProfile, after);
+}
+
 TEST(Document, AFillTellsHowFarItIs) {
     const auto document = largeDocument();
     std::vector<float> told;
