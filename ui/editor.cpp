@@ -543,16 +543,18 @@ void Editor::takeKey(KeyChord pressed) {
 void Editor::handleInput() {
     const ImGuiIO& io = ImGui::GetIO();
     mTools.setLightsFirst(mLayout.panelsShown && mLayout.tab == Tab::Light);
-    const std::vector<InputEvent> news = mWindow.takeInput();
     std::vector<InputEvent> events = std::exchange(mLater, {});
-    events.insert(events.end(), news.begin(), news.end());
-    for (const InputEvent& event : events) {
-        // A long edit under way takes no input, but a stroke goes on after it; and what comes after
-        // something that waits for the end of the frame waits too.
-        if (mLongEdit.isShown() ? mTools.isDragging() : mSession.hasWaiting()) {
-            mLater.push_back(event);
+    const bool isHeld = mTools.isDragging() || !events.empty();
+    for (const InputEvent& event : mWindow.takeInput()) {
+        // A long edit that shows takes no input, but a stroke goes on after it.
+        if (!mLongEdit.isShown() || isHeld) {
+            events.push_back(event);
         }
+    }
+    for (const InputEvent& event : events) {
+        // Nothing overtakes what waits for the end of the frame.
         if (mLongEdit.isShown() || mSession.hasWaiting()) {
+            mLater.push_back(event);
             continue;
         }
         if (event.kind == InputEvent::Kind::Key) {
