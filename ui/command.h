@@ -70,8 +70,8 @@ public:
     /// @param name not registered before
     void add(const std::string& name, const std::string& summary, Handler handler,
              bool isRecorded = true);
-    /// The same for what may change a whole map by what the hand holds: it is recorded as the edit
-    /// that it comes to, and may take longer than a frame. @param name not registered before
+    /// The same for what may take longer than a frame; it is recorded when it is done, as what it
+    /// came to. @param name not registered before
     void addEdit(const std::string& name, const std::string& summary, Handler handler);
     /// @throws UsageError for an unknown command, one with an argument of the wrong type; whatever
     ///         the handler throws. Observers hear of commands that succeeded.

@@ -4,8 +4,10 @@
 #include "renderer/scene/load_scene.h"
 #include "renderer/scene/rewrite_gltf.h"
 #include "renderer/scene/write_gltf.h"
+#include "subedit/document/edit_progress.h"
 #include "subedit/errors.h"
 #include "subedit/map/material_file.h"
+#include "subedit/stop_point.h"
 #include "ui/material_save.h"
 #include "ui/session.h"
 
@@ -36,14 +38,6 @@ DeformerStack inUnits(DeformerStack stack, double factor) {
         }
     }
     return stack;
-}
-
-void writeMaterialFile(const Session& session, const subedit::MaterialMap& material,
-                       const std::filesystem::path& file) {
-    if (session.beforeWriting) {
-        session.beforeWriting(file);
-    }
-    subedit::writeMaterial(material, file);
 }
 
 /// Name of the file that a material goes into, beside the export.
@@ -101,6 +95,22 @@ void exportGltf(Session& session, const std::filesystem::path& file) {
     constexpr double kMmPerMeter = 1e3;
     const double metersPerUnit = world.millimetersPerUnit / kMmPerMeter;
     const DeformerStack stack = inUnits(session.motion.now.deformers, metersPerUnit);
+    std::vector<std::filesystem::path> files;
+    for (int i = 0; i < session.materialCount(); ++i) {
+        files.push_back(file.parent_path() / exportedName(file, i));
+        if (session.beforeWriting) {
+            session.beforeWriting(files.back());
+        }
+    }
+    const auto writeMaterials = [&] { // before the glTF that names them
+        for (int i = 0; i < session.materialCount(); ++i) {
+            subedit::stopPoint();
+            subedit::writeMaterial(session.document(i)->material(),
+                                   files[static_cast<std::size_t>(i)]);
+        }
+        subedit::stopPoint();
+    };
+    const subedit::EditProgress progress = session.progressOf("export");
     std::vector<std::string> lost;
     if (isGltf(model) && !world.hasAutomaticAtlas) {
         loaders::GltfChanges changes;
@@ -112,18 +122,20 @@ void exportGltf(Session& session, const std::filesystem::path& file) {
         }
         changes.deformers = stack;
         changes.scale = metersPerUnit;
-        lost = loaders::rewriteGltf(model, changes, file);
+        subedit::doTelling(progress, [&] {
+            writeMaterials();
+            lost = loaders::rewriteGltf(model, changes, file);
+        });
     } else {
         nlohmann::json extras = nlohmann::json::object();
         if (!stack.empty()) {
             extras["celadon"] = loaders::deformersJson(stack);
         }
-        writeGltf(world, materials, extras, file);
+        subedit::doTelling(progress, [&] {
+            writeMaterials();
+            writeGltf(world, materials, extras, file);
+        });
         lost = leftOut(session);
-    }
-    for (int i = 0; i < session.materialCount(); ++i) {
-        writeMaterialFile(session, session.document(i)->material(),
-                          file.parent_path() / exportedName(file, i));
     }
     session.notify(Notice::Kind::Info,
                    fmt::format("Exported '{}' with {} beside it", file.string(),
@@ -144,8 +156,11 @@ void addFileCommands(Session& session) {
                      session.adopt(request, prepareScene(session.services().readWorld(request),
                                                          session.services().isPaintable));
                  });
-    commands.add("file.export", "Writes a glTF with the materials as SubEdit files beside it",
-                 [&session](const Arguments& a) { exportGltf(session, a.text("file")); });
+    commands.addEdit("file.export", "Writes a glTF with the materials as SubEdit files beside it",
+                     [&session](const Arguments& a) {
+                         exportGltf(session, a.text("file"));
+                         session.dispatcher().announce({"file.export", {{"file", a.text("file")}}});
+                     });
     commands.add("file.save",
                  "Writes a material to a .subedit.exr: file; material, if not the active one; name",
                  [&session](const Arguments& a) {
