@@ -195,6 +195,10 @@ void PenInput::tell(std::span<InputEvent> events) {
     if (!mConnection || events.empty()) {
         return;
     }
+    if (!hasPen()) { // the server is asked nothing; one that is plugged in is heard of
+        readEvents(0, {});
+        return;
+    }
     // With the answer, all is here that GLFW has heard of.
     const xcb_query_pointer_cookie_t question = xcb_query_pointer(mConnection.get(), mWindow);
     const Reply<xcb_query_pointer_reply_t> answer(
