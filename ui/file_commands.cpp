@@ -102,13 +102,12 @@ void exportGltf(Session& session, const std::filesystem::path& file) {
             session.beforeWriting(files.back());
         }
     }
-    const auto writeMaterials = [&] { // before the glTF that names them
+    const auto writeMaterials = [&] { // after the glTF, which may be refused
         for (int i = 0; i < session.materialCount(); ++i) {
             subedit::stopPoint();
             subedit::writeMaterial(session.document(i)->material(),
                                    files[static_cast<std::size_t>(i)]);
         }
-        subedit::stopPoint();
     };
     const subedit::EditProgress progress = session.progressOf("export");
     std::vector<std::string> lost;
@@ -123,8 +122,8 @@ void exportGltf(Session& session, const std::filesystem::path& file) {
         changes.deformers = stack;
         changes.scale = metersPerUnit;
         subedit::doTelling(progress, [&] {
-            writeMaterials();
             lost = loaders::rewriteGltf(model, changes, file);
+            writeMaterials();
         });
     } else {
         nlohmann::json extras = nlohmann::json::object();
@@ -132,8 +131,8 @@ void exportGltf(Session& session, const std::filesystem::path& file) {
             extras["celadon"] = loaders::deformersJson(stack);
         }
         subedit::doTelling(progress, [&] {
-            writeMaterials();
             writeGltf(world, materials, extras, file);
+            writeMaterials();
         });
         lost = leftOut(session);
     }
