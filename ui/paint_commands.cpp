@@ -31,6 +31,15 @@ Command editCommand(int material, const subedit::EditCommand& edit) {
             {{"material", material}, {"edit", nlohmann::json::parse(subedit::commandText(edit))}}};
 }
 
+/// After an edit by hand: what follows from it, what there is to say, and its record.
+void finishEdit(Session& session, int material, const subedit::EditCommand& edit,
+                const subedit::EditReport& report) {
+    session.dropUndone(material);
+    session.dispatcher().announce(editCommand(material, edit));
+    session.tell(report, std::holds_alternative<subedit::SelectCommand>(edit));
+    session.touchMaterial();
+}
+
 subedit::SelectMode parseSelectMode(const std::string& word) {
     for (const auto& [name, mode] : {std::pair{"replace", subedit::SelectMode::Replace},
                                      std::pair{"add", subedit::SelectMode::Add},
@@ -82,10 +91,7 @@ void Session::edit(const subedit::EditCommand& command) {
     subedit::Document& target = documentOf(*this, activeMaterial);
     const subedit::EditReport report =
         target.execute(command, progressOf(subedit::commandTitle(command)));
-    dropUndone(activeMaterial);
-    mDispatcher.announce(editCommand(activeMaterial, command));
-    tell(report, std::holds_alternative<subedit::SelectCommand>(command));
-    touchMaterial();
+    finishEdit(*this, activeMaterial, command, report);
 }
 
 void Session::tell(const subedit::EditReport& report, bool isSelection) {
@@ -172,10 +178,7 @@ void Session::finishStroke(int material, const Stroke& stroke) {
     const subedit::EditReport report =
         stroke.isLive ? target.endStroke()
                       : target.execute(edit, progressOf(subedit::commandTitle(edit)));
-    dropUndone(material);
-    tell(report, stroke.selects);
-    mDispatcher.announce(editCommand(material, edit));
-    touchMaterial();
+    finishEdit(*this, material, edit, report);
 }
 
 void Session::cancelStroke() {
