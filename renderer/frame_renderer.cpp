@@ -80,11 +80,11 @@ std::vector<double> directLightKey(const Camera& camera, std::span<const Light> 
 
 } // namespace
 
-GpuScene::GpuScene(const World& theWorld, const FrameSettings& settings)
+GpuScene::GpuScene(const World& theWorld, const FrameSettings& settings, const MakingProgress& tell)
     : world(theWorld),
       gpuWorld(theWorld, settings.rasterizer),
       materials(theWorld.materials, settings.splatting.energy, settings.splatting.epsilon,
-                settings.exitFresnel, settings.splatting.rangeTable) {
+                settings.exitFresnel, tell, settings.splatting.rangeTable) {
     shaders.define(sceneDefines(theWorld, gpuWorld.rasterizer()));
 }
 

@@ -58,8 +58,9 @@ struct RenderedFrame {
 /// Geometry and materials on the GPU. Renderers of several sizes and qualities may share it, as
 /// long as their settings agree on `energy`, `epsilon`, `exitFresnel` and `rasterizer`.
 struct GpuScene {
-    /// @param theWorld outlives the scene @throws ContextError, InputError
-    GpuScene(const World& theWorld, const FrameSettings& settings);
+    /// @param theWorld outlives the scene @param tell of GpuMaterials
+    /// @throws ContextError, InputError
+    GpuScene(const World& theWorld, const FrameSettings& settings, const MakingProgress& tell = {});
 
     const World& world;
     gl::ShaderLibrary shaders;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,20 +22,25 @@ constexpr float kLog2TMax = 12.0f;
 constexpr int kBorder = 1;      ///< texels around a map, so that filtering finds its other side
 constexpr int kExtraLayers = 3; ///< beyond the knots: radii, kept energy, specular lobe
 
-/// [height][width][knot][3] of a rectangle -> [knot][height][width][4]
-std::vector<float> knotsAsSlices(const subedit::MaterialMap& map, const subedit::TexelRect& rect) {
-    const std::size_t knots = static_cast<std::size_t>(map.knots());
-    const std::size_t texels = rect.texels();
-    std::vector<float> slices(texels * knots * 4, 0.0f);
-    std::size_t t = 0;
-    for (int y = rect.y; y < rect.bottom(); ++y) {
-        for (int x = rect.x; x < rect.right(); ++x, ++t) {
-            const float* const profile = map.logProfile.data() + map.index(x, y, 0);
-            for (std::size_t k = 0; k < knots; ++k) {
-                std::copy_n(profile + k * 3, 3, &slices[(k * texels + t) * 4]);
+/// [height][width][knot][3], rows `rowStride` apart -> [knot][height][width][4]
+std::vector<float> asSlices(const float* first, std::size_t rowStride, glm::ivec2 size, int knots) {
+    constexpr int kAtOnce = 64; // texels that stay in the cache while their knots are spread
+    const auto values = static_cast<std::size_t>(knots) * 3;
+    const auto width = static_cast<std::size_t>(size.x);
+    const std::size_t texels = width * static_cast<std::size_t>(size.y);
+    std::vector<float> slices(texels * static_cast<std::size_t>(knots) * 4);
+    tbb::parallel_for(0, size.y, [&](int y) {
+        const float* const row = first + static_cast<std::size_t>(y) * rowStride;
+        for (std::size_t begin = 0; begin < width; begin += kAtOnce) {
+            const std::size_t end = std::min(begin + kAtOnce, width);
+            for (std::size_t k = 0; k < static_cast<std::size_t>(knots); ++k) {
+                float* to = &slices[(k * texels + static_cast<std::size_t>(y) * width + begin) * 4];
+                for (std::size_t x = begin; x < end; ++x, to += 4) {
+                    std::copy_n(row + x * values + k * 3, 3, to);
+                }
             }
         }
-    }
+    });
     return slices;
 }
 
@@ -89,6 +95,17 @@ void checkSize(std::span<const MaterialPointer> materials, const glm::ivec3& ext
     }
 }
 
+/// The whole map in parts whose tables take no more memory than a few maps of usual size.
+std::vector<subedit::TexelRect> bandsOf(const subedit::MaterialMap& map) {
+    constexpr int kBandTexels = 1 << 15;
+    const int rows = std::max(kBandTexels / map.width, 1);
+    std::vector<subedit::TexelRect> bands;
+    for (int y = 0; y < map.height; y += rows) {
+        bands.push_back({0, y, map.width, std::min(rows, map.height - y)});
+    }
+    return bands;
+}
+
 /// Copies what lies at the map's rim to the border on the other side.
 /// @param corner of the map's texel (0, 0) in the array
 void repeatAtBorder(const gl::Texture& texture, const glm::ivec3& corner, glm::ivec2 size,
@@ -115,7 +132,7 @@ void repeatAtBorder(const gl::Texture& texture, const glm::ivec3& corner, glm::i
 } // namespace
 
 GpuMaterials::GpuMaterials(std::span<const MaterialPointer> materials, double energy,
-                           double epsilon, ExitFresnel exitFresnel,
+                           double epsilon, ExitFresnel exitFresnel, const MakingProgress& tell,
                            std::span<const float> rangeTable)
     : mSlots(slotsOf(materials)),
       mMapSampler("material map", gl::Filter::Linear),
@@ -129,15 +146,27 @@ GpuMaterials::GpuMaterials(std::span<const MaterialPointer> materials, double en
     const glm::vec2 texel = 1.0f / glm::vec2(mSlots.extent);
     std::vector<blocks::MaterialEntry> entries;
     std::vector<float> tables;
+    std::size_t texels = 0;
+    std::size_t done = 0;
+    for (const MaterialPointer& material : materials) {
+        texels +=
+            static_cast<std::size_t>(material->width) * static_cast<std::size_t>(material->height);
+    }
     for (const MaterialPointer& material : materials) {
         const subedit::MaterialMap& map = *material;
-        MaterialTables made = makeMaterialTables(map, energy, epsilon);
+        MaterialTables made = makeMaterialTables(map, epsilon);
         if (!rangeTable.empty()) {
             made.rangeTable.assign(rangeTable.begin(), rangeTable.end());
         }
         const std::size_t index = entries.size();
-        upload(static_cast<int>(index), map, {0, 0, map.width, map.height}, made.texels);
         mMeanLogProfiles.push_back(std::move(made.meanLogProfile));
+        for (const subedit::TexelRect& rows : bandsOf(map)) {
+            if (tell) {
+                tell(static_cast<float>(done) / static_cast<float>(texels));
+            }
+            update(static_cast<int>(index), map, rows);
+            done += rows.texels();
+        }
 
         const double c = exitFresnel == ExitFresnel::Exact
                              ? diffuseTransmittance(static_cast<double>(map.eta))
@@ -164,29 +193,30 @@ GpuMaterials::GpuMaterials(std::span<const MaterialPointer> materials, double en
     mHomogeneous = materials.size() == 1 && materials[0]->isHomogeneous();
 }
 
-void GpuMaterials::upload(int material, const subedit::MaterialMap& map,
-                          const subedit::TexelRect& rect, const TexelTables& tables) {
+void GpuMaterials::update(int material, const subedit::MaterialMap& map,
+                          const subedit::TexelRect& rect) {
+    const TexelTables tables =
+        makeTexelTables(map, rect, mEnergy, mMeanLogProfiles[static_cast<std::size_t>(material)]);
     const glm::ivec3 corner =
         mSlots.origins[static_cast<std::size_t>(material)] + glm::ivec3(kBorder, kBorder, 0);
     const glm::ivec3 offset = corner + glm::ivec3(rect.x, rect.y, 0);
     const glm::ivec2 size(rect.width, rect.height);
     const int knots = map.knots();
-    mTables.uploadRegion(0, offset, glm::ivec3(size, knots), knotsAsSlices(map, rect));
+    const auto values = static_cast<std::size_t>(knots) * 3;
+    const auto slicesOf = [&](const float* first, int width) {
+        return asSlices(first, values * static_cast<std::size_t>(width), size, knots);
+    };
+    mTables.uploadRegion(0, offset, glm::ivec3(size, knots),
+                         slicesOf(map.logProfile.data() + map.index(rect.x, rect.y, 0), map.width));
     mTables.uploadRegion(0, offset + glm::ivec3(0, 0, knots), glm::ivec3(size, 1), tables.radii);
     mTables.uploadRegion(0, offset + glm::ivec3(0, 0, knots + 1), glm::ivec3(size, 1), tables.kept);
     mTables.uploadRegion(0, offset + glm::ivec3(0, 0, knots + 2), glm::ivec3(size, 1),
                          lobeSlice(map, rect));
-    mFarEnergy.uploadRegion(0, offset, glm::ivec3(size, knots), tables.logFarEnergy);
+    mFarEnergy.uploadRegion(0, offset, glm::ivec3(size, knots),
+                            slicesOf(tables.logFarEnergy.data(), rect.width));
     const glm::ivec2 mapSize(map.width, map.height);
     repeatAtBorder(mTables, corner, mapSize, knots + kExtraLayers, rect);
     repeatAtBorder(mFarEnergy, corner, mapSize, knots, rect);
-}
-
-void GpuMaterials::update(int material, const subedit::MaterialMap& map,
-                          const subedit::TexelRect& rect) {
-    upload(
-        material, map, rect,
-        makeTexelTables(map, rect, mEnergy, mMeanLogProfiles[static_cast<std::size_t>(material)]));
 }
 
 void GpuMaterials::bind() const {

@@ -10,6 +10,7 @@
 #include "renderer/shading/fresnel.h"
 #include "subedit/map/texel_rect.h"
 
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -18,13 +19,19 @@
 /// array texture, each with a border of one texel that repeats its other side.
 namespace celadon {
 
+/// Told now and then how much is done, 0 to 1, since large maps take seconds. What it throws ends
+/// it.
+using MakingProgress = std::function<void(float done)>;
+
 class GpuMaterials {
 public:
-    /// @param energy, epsilon as makeMaterialTables
+    /// @param energy, epsilon as makeTexelTables, makeMaterialTables
+    /// @param tell see MakingProgress; may be empty
     /// @param rangeTable instead of the materials' own, unless empty
     /// @throws InputError when they are too many or too large for the driver
     GpuMaterials(std::span<const MaterialPointer> materials, double energy, double epsilon,
-                 ExitFresnel exitFresnel, std::span<const float> rangeTable = {});
+                 ExitFresnel exitFresnel, const MakingProgress& tell = {},
+                 std::span<const float> rangeTable = {});
 
     /// Texels of a rectangle have changed. Neither size nor layout of the map may have; the range
     /// table and the means stay as they were made.
@@ -47,9 +54,6 @@ public:
     [[nodiscard]] float minimalRadius(float pixelsPerRadius, int material = 0) const;
 
 private:
-    void upload(int material, const subedit::MaterialMap& map, const subedit::TexelRect& rect,
-                const TexelTables& tables);
-
     gl::Buffer mBlock;
     MaterialSlots mSlots;
     gl::Texture mTables; ///< [layer][row][column][4]: ln P of the knots, radii, kept energy, lobe
@@ -58,7 +62,7 @@ private:
     gl::Sampler mMapSampler, mTableSampler;
     std::vector<float> mRangeTables; ///< one row a material
     std::size_t mTableSize = 0;
-    std::vector<std::vector<double>> mMeanLogProfiles; ///< per material, for update()
+    std::vector<std::vector<float>> mMeanLogProfiles; ///< per material, for update()
     double mEnergy = 1.0;
     bool mHomogeneous = false;
     float mMeanRadiusMm = 0.0f;

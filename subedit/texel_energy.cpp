@@ -111,15 +111,39 @@ int TexelEnergy::segmentHolding(int channel, float& remaining) const {
 }
 
 float TexelEnergy::channelRadius(int channel, float fraction, float blackTotal) const {
-    float radius = 0.0f;
+    float radius;
+    RadiusSearch search;
+    addChannelRadius(search, channel, fraction, blackTotal, radius);
+    search.finish();
+    return radius;
+}
+
+void TexelEnergy::addChannelRadius(RadiusSearch& search, int channel, float fraction,
+                                   float blackTotal, float& radius) const {
+    radius = 0.0f;
     if (mTotal[channel] >= blackTotal) {
         float remaining = mTotal[channel] * fraction;
         const int k = segmentHolding(channel, remaining);
-        RadiusSearch search;
         addSearch(search, k, channel, remaining, radius);
-        search.finish();
     }
-    return radius;
+}
+
+float TexelEnergy::within(int channel, float radius) const {
+    const int whole = std::clamp(static_cast<int>(radius), 0, mSegments);
+    float sum = 0.0f;
+    for (int k = 0; k < whole; ++k) {
+        sum += ofSegment(k, channel);
+    }
+    const float t = radius - static_cast<float>(whole);
+    if (whole < mSegments && t > 0.0f) {
+        const int i = whole * 3 + channel;
+        const float z = (mLog[i + 3] - mLog[i]) * t;
+        const bool isSmall = std::abs(z) < 0.3f;
+        const float m0 = isSmall ? momentSeries0(z) : (fastExp(z) - 1.0f) / z;
+        const float m1 = isSmall ? momentSeries1(z) : (fastExp(z) - m0) / z;
+        sum += mValue[i] * t * (static_cast<float>(whole) * m0 + t * m1);
+    }
+    return sum;
 }
 
 float TexelEnergy::radiusBound(int channel, float fraction, float blackTotal) const {

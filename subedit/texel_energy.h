@@ -45,8 +45,15 @@ public:
     }
 
     [[nodiscard]] float last(int channel) const { ///< of the last segment
-        return mEnergy[static_cast<std::size_t>((mSegments - 1) * 3 + channel)];
+        return ofSegment(mSegments - 1, channel);
     }
+
+    [[nodiscard]] float ofSegment(int segment, int channel) const {
+        return mEnergy[static_cast<std::size_t>(segment * 3 + channel)];
+    }
+
+    /// Of a channel from 0 to a radius in units of h.
+    [[nodiscard]] float within(int channel, float radius) const;
 
     /// Diffuse albedo for knots h mm apart.
     [[nodiscard]] float albedo(int channel, float h) const {
@@ -63,6 +70,9 @@ public:
     /// Largest of the channels' radii in units of h; 0 when all are black. It is in `radius` when
     /// the search has finished.
     void addRadius(RadiusSearch& search, float fraction, float blackTotal, float& radius) const;
+    /// One channel's.
+    void addChannelRadius(RadiusSearch& search, int channel, float fraction, float blackTotal,
+                          float& radius) const;
 
     /// What `blackTotal` is for knots h mm apart.
     [[nodiscard]] static float blackTotal(float h) {
