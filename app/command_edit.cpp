@@ -129,9 +129,9 @@ void addReplay(CLI::App& app, EditOptions& o) {
 
 void edit(EditOptions o) {
     ui::EditorOptions& e = o.editor;
-    e.isFirstScene = o.scene.model.empty();
-    e.open.model = e.isFirstScene ? kFirstModel : o.scene.model;
-    e.open.material = o.scene.material.value_or(e.isFirstScene ? kFirstMaterial : "");
+    e.greeting = {kFirstModel, kFirstMaterial};
+    e.open = o.scene.model.empty() ? e.greeting : ui::OpenRequest{o.scene.model, {}};
+    e.open.material = o.scene.material.value_or(e.open.material);
     const RenderOptions scene = o.scene;
     e.services.readWorld = [scene](const ui::OpenRequest& request) {
         RenderOptions options = scene;

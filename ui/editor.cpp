@@ -52,6 +52,9 @@ private:
     void pollOpening();
     void pollSaving();
     void worldOpened();
+    void showActivity();
+    [[nodiscard]] std::string activity() const; ///< what is being waited for
+    void cancelJobs();
     void offerRecovery();
     void takeKey(KeyChord pressed);
     void act(Action action) {
@@ -67,6 +70,8 @@ private:
     /// While an edit lasts: the window goes on. @throws GivenUp
     void showProgress(const std::string& title, float done);
     void handleInput();
+    void handleKey(const InputEvent& event);
+    [[nodiscard]] bool mustWait(const InputEvent& event, bool overUi);
     void advanceScript();
     void setActions();
     void applyPreferences();
@@ -98,6 +103,7 @@ private:
     FileWatch mWatch;
     bool mIsPlaced = false;
     std::uint64_t mSeenWorld = 0;
+    OpenRequest mSeenScene;                             ///< the last of which there was a picture
     std::chrono::steady_clock::time_point mPlayedUntil; ///< what turns or plays has come so far
     bool mShouldClose = false;
     int mFramesToDraw = kSettlingFrames;
@@ -124,6 +130,7 @@ Editor::Editor(const EditorOptions& options)
       mJournal(stateFolder()),
       mRecovery(mSession, mJournal),
       mFiles(mSession, mOpen, mPreferences, mScript.isUnattended()),
+      mSeenScene(options.greeting),
       mJobs(mWindow.jobsWindow(), [] { Window::wake(); }),
       mThumbnails(mJobs, cacheFolder() / "thumbnails"),
       mTruth(mJobs) {
@@ -191,14 +198,7 @@ void Editor::setActions() {
                                                   {{"file", file.string()}, {"frames", frames}}});
                             });
     };
-    mActions.cancelJobs = [this] {
-        if (mOpen.isRunning()) {
-            mOpen.cancel();
-            mSession.notify(Notice::Kind::Info, "Opening was given up");
-        }
-        mJobs.cancelShown();
-        mTruth.giveUp();
-    };
+    mActions.cancelJobs = [this] { cancelJobs(); };
     mActions.toggleFullScreen = [this] { mWindow.toggleFullScreen(); };
     mActions.togglePlay = [this] { togglePlay(); };
     mActions.toggleTurntable = [this] { mLayout.isTurning = !mLayout.isTurning; };
@@ -352,11 +352,13 @@ void Editor::poll() {
     pollSaving();
     if (mRecovery.isRunning()) {
         const bool isDone = mRecovery.advance(mPreferences.autosave);
-        mLayout.activity = mRecovery.activity();
         mFramesToDraw = kSettlingFrames;
         if (isDone) {
             applyPreferences();
         }
+    }
+    if (mTools.takeArrived()) {
+        mFramesToDraw = kSettlingFrames;
     }
     if (mJobs.poll()) {
         mFramesToDraw = kSettlingFrames;
@@ -380,23 +382,19 @@ void Editor::poll() {
         mFiles.drop(file);
         mFramesToDraw = kSettlingFrames;
     }
+    showActivity();
 }
 
 void Editor::pollOpening() {
-    if (mOpen.isRunning()) {
-        mLayout.activity =
-            fmt::format("Opening {} \xe2\x80\xa6 {:.0f} s", mOpen.request().model, mOpen.seconds());
-        mFramesToDraw = std::max(mFramesToDraw, 1);
+    if (mViewport.shownRung() >= 0) {
+        mSeenScene = mSession.opened();
     }
     if (!mOpen.poll()) {
         return;
     }
     mFramesToDraw = kSettlingFrames;
-    if (!mOpen.isRunning()) {
-        mLayout.activity.clear();
-        if (mSession.worldRevision() == mSeenWorld) {
-            mRecovery.sceneMissed();
-        }
+    if (!mOpen.isRunning() && mSession.worldRevision() == mSeenWorld) {
+        mRecovery.sceneMissed();
     }
     if (mSession.hasWorld() && !mIsPlaced && mOptions.place) {
         mOptions.place(mSession);
@@ -409,28 +407,68 @@ void Editor::pollOpening() {
 }
 
 void Editor::pollSaving() {
-    const BackgroundSave& save = mFiles.saving();
-    if (save.isRunning() && save.seconds() > 0.3) {
-        mLayout.activity = fmt::format("Saving {} \xe2\x80\xa6 {:.0f} s",
-                                       save.file().filename().string(), save.seconds());
-        mFramesToDraw = std::max(mFramesToDraw, 1);
-    }
     if (mFiles.poll()) {
-        mLayout.activity.clear();
         mFramesToDraw = kSettlingFrames;
     }
+}
+
+std::string Editor::activity() const {
+    if (mRecovery.isRunning()) {
+        return mRecovery.activity();
+    }
+    if (mOpen.isRunning()) {
+        return fmt::format("Opening {} \xe2\x80\xa6 {:.0f} s", mOpen.request().model,
+                           mOpen.seconds());
+    }
+    if (const BackgroundSave& save = mFiles.saving(); save.isRunning() && save.seconds() > 0.3) {
+        return fmt::format("Saving {} \xe2\x80\xa6 {:.0f} s", save.file().filename().string(),
+                           save.seconds());
+    }
+    const std::optional<float> made = mViewport.tablesMade();
+    if (made || mViewport.isPreparing()) {
+        return "Preparing the picture \xe2\x80\xa6" +
+               (made ? fmt::format(" {:.0f} %", 100.0f * *made) : "");
+    }
+    return {};
+}
+
+void Editor::showActivity() {
+    std::string now = activity();
+    if (now != mLayout.activity) {
+        mLayout.activity = std::move(now);
+        mFramesToDraw = std::max(mFramesToDraw, 1);
+    }
+    mLayout.canCancel = mOpen.isRunning() || mViewport.isPreparing();
+}
+
+void Editor::cancelJobs() {
+    if (mOpen.isRunning()) {
+        mOpen.cancel();
+        mSession.notify(Notice::Kind::Info, "Opening was given up");
+    } else if (mViewport.isPreparing()) { // what was there before comes back
+        mFiles.open(mSeenScene);
+    }
+    mJobs.cancelShown();
+    mTruth.giveUp();
 }
 
 void Editor::worldOpened() {
     mFiles.remember(mSession.opened());
     mJournal.begin(mSession.opened());
     mRecovery.sceneOpened();
+    if (!mScript.isUnattended()) {
+        mTools.prepare();
+    }
 }
 
 bool Editor::play() {
     const auto now = std::chrono::steady_clock::now();
     const bool isOn = mLayout.isTurning || mSession.motion.isPlaying;
     if (!isOn || !mSession.hasWorld()) {
+        mPlayedUntil = now;
+        return false;
+    }
+    if (!mLater.empty()) { // the hand waits for the shape of this moment
         mPlayedUntil = now;
         return false;
     }
@@ -469,7 +507,6 @@ void Editor::drawContents() {
     if (!mViewport.isPreparing()) { // there is nothing yet to paint on
         mTools.drawOverlay(background, rect, mWindow.scale());
     }
-    mLayout.isOpening = mOpen.isRunning();
     mLayout.isRecovering = mRecovery.isRunning();
     drawLayout({mSession, mLayout, mPreferences, mActions, mViewport, mThumbnails, mTruth, mTools,
                 mWindow.scale()});
@@ -540,6 +577,25 @@ void Editor::takeKey(KeyChord pressed) {
     mLayout.keyWantedFor.reset();
 }
 
+void Editor::handleKey(const InputEvent& event) {
+    const KeyChord pressed{event.button, event.modifiers};
+    if (mLayout.keyWantedFor) {
+        takeKey(pressed);
+        return;
+    }
+    const std::optional<Action> action = mPreferences.keys.find(pressed);
+    if (action && !mRecovery.isRunning() && (!event.isRepeated || repeats(*action)) &&
+        !ImGui::GetIO().WantTextInput && !mFiles.isAsking()) {
+        act(*action);
+    }
+}
+
+/// Nothing overtakes what waits for the end of the frame, or for the shape that is shown.
+bool Editor::mustWait(const InputEvent& event, bool overUi) {
+    return mLongEdit.isShown() || mSession.hasWaiting() || !mLater.empty() ||
+           mTools.mustWait(event, mViewport.rect(), overUi);
+}
+
 void Editor::handleInput() {
     const ImGuiIO& io = ImGui::GetIO();
     mTools.setLightsFirst(mLayout.panelsShown && mLayout.tab == Tab::Light);
@@ -552,29 +608,13 @@ void Editor::handleInput() {
         }
     }
     for (const InputEvent& event : events) {
-        // Nothing overtakes what waits for the end of the frame.
-        if (mLongEdit.isShown() || mSession.hasWaiting()) {
+        const bool overUi = io.WantCaptureMouse && !mTools.isDragging();
+        if (mustWait(event, overUi)) {
             mLater.push_back(event);
-            continue;
-        }
-        if (event.kind == InputEvent::Kind::Key) {
-            const KeyChord pressed{event.button, event.modifiers};
-            if (mLayout.keyWantedFor) {
-                takeKey(pressed);
-                continue;
-            }
-            const std::optional<Action> action = mPreferences.keys.find(pressed);
-            if (mRecovery.isRunning()) {
-                continue;
-            }
-            if (action && (!event.isRepeated || repeats(*action)) && !io.WantTextInput &&
-                !mFiles.isAsking()) {
-                act(*action);
-            }
-            continue;
-        }
-        if (!mRecovery.isRunning()) {
-            mTools.handle(event, mViewport.rect(), io.WantCaptureMouse && !mTools.isDragging());
+        } else if (event.kind == InputEvent::Kind::Key) {
+            handleKey(event);
+        } else if (!mRecovery.isRunning()) {
+            mTools.handle(event, mViewport.rect(), overUi);
         }
     }
     mTools.hover({static_cast<double>(io.MousePos.x), static_cast<double>(io.MousePos.y)},
@@ -611,6 +651,7 @@ nlohmann::json Editor::state() const {
     return {{"model", mSession.opened().model},
             {"open", mSession.hasWorld()},
             {"opening", mOpen.isRunning()},
+            {"preparing", mViewport.isPreparing()},
             {"settled", progress().isQuiet},
             {"rung", mViewport.shownRung()},
             {"revision", mSession.pictureRevision()},

@@ -25,7 +25,7 @@ struct TracePoint {
 /// What `celadon edit` was asked for.
 struct EditorOptions {
     OpenRequest open;
-    bool isFirstScene = false;           ///< nothing was named: the scene that Celadon greets with
+    OpenRequest greeting;                ///< the scene that Celadon greets with
     std::function<void(Session&)> place; ///< camera and lights of the command line, once open
     glm::ivec2 windowSize{1280, 720};
     double scale = 0.0; ///< of the interface; 0: what the preferences or the display say

@@ -44,7 +44,7 @@ struct LayoutState {
     std::optional<double> scrollTo; ///< of the side bar, once
     std::string openMenu;           ///< to be opened, once
     std::string activity;           ///< what is being waited for, in the status bar
-    bool isOpening = false;         ///< that is a model, and can be given up
+    bool canCancel = false;         ///< that can be given up
     bool isRecovering = false;      ///< steps are replayed: nothing else may be done
     std::optional<BackgroundJobs::Running> job;
     bool isTurning = false;      ///< the turntable plays

@@ -82,7 +82,22 @@ void PictureRenderers::setWorld(std::shared_ptr<const World> world,
     mWorld = std::move(world);
     mMotion = std::make_unique<Motion>(*mWorld);
     mMaterials = std::move(materials);
-    makeScene();
+}
+
+bool PictureRenderers::prepare(const std::function<bool(float done)>& goesOn) {
+    struct GivenUp {};
+    try {
+        if (mWorld && !mScene) {
+            makeScene([&](float done) {
+                if (!goesOn(done)) {
+                    throw GivenUp();
+                }
+            });
+        }
+    } catch (const GivenUp&) {
+        dropScene();
+    }
+    return mScene != nullptr;
 }
 
 void PictureRenderers::dropScene() {
@@ -127,8 +142,8 @@ void PictureRenderers::checkMove() {
     }
 }
 
-void PictureRenderers::makeScene() {
-    mScene = std::make_shared<GpuScene>(*mWorld, frameSettings(Quality::Default));
+void PictureRenderers::makeScene(const MakingProgress& tell) {
+    mScene = std::make_shared<GpuScene>(*mWorld, frameSettings(Quality::Default), tell);
     mToneMap = std::make_unique<ToneMapPass>(mScene->shaders);
     mViewMode = std::make_unique<ViewModePass>(mScene->shaders, mScene->materials.count());
 }
@@ -140,13 +155,12 @@ void PictureRenderers::apply(const SelectionWeights& selection) {
 }
 
 void PictureRenderers::apply(const std::deque<MaterialPatch>& patches) {
-    bool isWhole = false;
     std::vector<MaterialChange> changes;
     for (const MaterialPatch& patch : patches) {
         subedit::MaterialMap& map = *mMaterials[static_cast<std::size_t>(patch.material)];
         if (patch.whole) {
             map = *patch.whole;
-            isWhole = true;
+            dropScene();
             continue;
         }
         float largestLogP = subedit::kLogProfileFloor;
@@ -161,9 +175,7 @@ void PictureRenderers::apply(const std::deque<MaterialPatch>& patches) {
         }
         addChange(changes, {patch.material, patch.rect, largestLogP});
     }
-    if (isWhole) {
-        dropScene();
-        makeScene();
+    if (!mScene) { // it will be made of what the maps are now
         return;
     }
     for (const MaterialChange& change : changes) {

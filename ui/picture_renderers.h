@@ -22,10 +22,13 @@ public:
     /// @param context current; outlives this
     explicit PictureRenderers(const gl::Context& context) : mContext(context) {}
 
-    [[nodiscard]] bool hasWorld() const { return mScene != nullptr; }
     /// @param materials those of the world, which are these renderers' from now on
     void setWorld(std::shared_ptr<const World> world,
                   std::vector<std::shared_ptr<subedit::MaterialMap>> materials);
+    /// What is wanted before pictures can be rendered: the scene on the GPU, with its tables.
+    /// @param goesOn asked now and then, with how much is done, 0 to 1
+    /// @return whether it is there: false without a world, and when it does not go on
+    [[nodiscard]] bool prepare(const std::function<bool(float done)>& goesOn);
     void apply(const std::deque<MaterialPatch>& patches);
     void apply(const SelectionWeights& selection);
     /// After an error nothing is known of their state: they are made anew.
@@ -45,7 +48,7 @@ private:
     void move(const MotionSetting& wanted, Settling settling);
     /// Once a picture is made of it. @throws InputError where vertices are beyond all numbers
     void checkMove();
-    void makeScene();
+    void makeScene(const MakingProgress& tell);
     void dropScene();
     FrameRenderer& rendererFor(const PictureRequest& request, bool& isNew);
     [[nodiscard]] SelectionOverlay overlayFor(const PictureRequest& request,

@@ -4,10 +4,18 @@
 #include "subedit/errors.h"
 #include "ui/picture_renderers.h"
 
+#include <chrono>
 #include <exception>
 #include <utility>
 
 namespace celadon::ui {
+
+namespace {
+
+/// What is made sooner needs no words.
+constexpr std::chrono::milliseconds kPatience{300};
+
+} // namespace
 
 PictureWorker::PictureWorker(GLFWwindow* window, std::function<void()> notify)
     : mWindow(window), mNotify(std::move(notify)), mThread([this] { run(); }) {}
@@ -63,6 +71,11 @@ bool PictureWorker::isBusy() const {
     return mBusy || mRequest.has_value();
 }
 
+std::optional<float> PictureWorker::tablesMade() const {
+    const float made = mTablesMade;
+    return made >= 0.0f ? std::optional(made) : std::nullopt;
+}
+
 std::optional<Picture> PictureWorker::takePicture() {
     const std::lock_guard lock(mMutex);
     return std::exchange(mPicture, std::nullopt);
@@ -101,14 +114,20 @@ void PictureWorker::run() {
             if (newWorld) {
                 renderers->setWorld(std::move(newWorld), std::move(newMaterials));
             }
-            if (renderers->hasWorld()) {
-                renderers->apply(patches);
-                for (const SelectionWeights& selection : selections) {
-                    renderers->apply(selection);
+            renderers->apply(patches);
+            for (const SelectionWeights& selection : selections) {
+                renderers->apply(selection);
+            }
+            const auto begin = std::chrono::steady_clock::now();
+            const bool isThere = renderers->prepare([&](float made) {
+                if (std::chrono::steady_clock::now() - begin > kPatience) {
+                    mTablesMade = made;
+                    mNotify();
                 }
-                if (request) {
-                    picture = renderers->render(*request, mInterrupt);
-                }
+                return !mInterrupt;
+            });
+            if (isThere && request) {
+                picture = renderers->render(*request, mInterrupt);
             }
         } catch (const InputError& error) { // a shape that cannot be: renderers are as they were
             problem = error.what();
@@ -118,6 +137,7 @@ void PictureWorker::run() {
             }
             problem = error.what();
         }
+        mTablesMade = -1.0f;
         lock.lock();
         if (picture) {
             mPicture = std::move(picture);

@@ -40,6 +40,8 @@ public:
     void request(PictureRequest request, bool giveUp);
 
     [[nodiscard]] bool isBusy() const;
+    /// How much of the scene on the GPU is made, 0 to 1; nothing while none is being made.
+    [[nodiscard]] std::optional<float> tablesMade() const;
     [[nodiscard]] std::optional<Picture> takePicture();
     /// One line; what could not be rendered and why.
     [[nodiscard]] std::optional<std::string> takeError();
@@ -61,7 +63,8 @@ private:
     std::optional<Picture> mPicture;
     std::optional<std::string> mError;
     std::atomic<bool> mInterrupt = false;
-    std::thread mThread; ///< last: everything above exists when it starts
+    std::atomic<float> mTablesMade = -1.0f; ///< below 0: none are being made
+    std::thread mThread;                    ///< last: everything above exists when it starts
 };
 
 } // namespace celadon::ui

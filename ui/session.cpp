@@ -69,7 +69,6 @@ void Session::adopt(const OpenRequest& request, OpenedScene scene) {
     const bool isSameModel = mWorld != nullptr && mOpened.model == request.model;
     mStrokeMaterial = -1;
     mWaiting.clear();
-    mShownWorld.reset();
     mMover.reset();
     mWorld = std::make_shared<const World>(std::move(scene.world));
     mRendered = std::move(scene.rendered);

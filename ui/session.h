@@ -174,8 +174,6 @@ public:
     bool advanceTime(double clockSeconds);
     /// The motion of the world as it is set now; handles are solved when it is asked for a pose.
     [[nodiscard]] const Motion& mover() const { return *mMover; }
-    /// The world as it is shown; made anew where it has moved since.
-    [[nodiscard]] const std::shared_ptr<const World>& shownWorld();
     [[nodiscard]] bool areDeformersModified() const {
         return motion.now.deformers != mSavedDeformers;
     }
@@ -233,8 +231,6 @@ private:
     std::shared_ptr<const World> mWorld;
     std::unique_ptr<Motion> mMover;        ///< of mWorld
     std::optional<Camera> mFollowedCamera; ///< the model's first, as it was last
-    std::shared_ptr<const World> mShownWorld;
-    MotionSetting mShownSetting; ///< of mShownWorld
     MotionHistory mMotionHistory;
     DeformerStack mSavedDeformers;
     OpenRequest mOpened;

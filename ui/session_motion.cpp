@@ -1,4 +1,4 @@
-// What moves the model, how it is undone, and the shape that it has at the moment that is shown.
+// What moves the model, and how it is undone.
 #include "renderer/scene/motion.h"
 #include "subedit/errors.h"
 #include "ui/session.h"
@@ -109,22 +109,6 @@ void Session::followAnimation() {
         }
     }
     mFollowedCamera = now.cameras.front();
-}
-
-const std::shared_ptr<const World>& Session::shownWorld() {
-    if (!mMover->moves()) {
-        return mWorld;
-    }
-    if (!mShownWorld || mShownSetting != motion.now) {
-        try {
-            mShownWorld =
-                std::make_shared<const World>(posedWorld(*mWorld, mMover->at(motion.now.seconds)));
-            mShownSetting = motion.now;
-        } catch (const Error&) { // the picture says it
-            return mWorld;
-        }
-    }
-    return mShownWorld;
 }
 
 std::optional<std::string> Session::undoTitle() const {

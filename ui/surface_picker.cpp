@@ -30,69 +30,61 @@ glm::dvec2 seenAt(const Camera& camera, const glm::dvec3& point, const ViewportR
     return glm::dvec2(rect.origin) + glm::dvec2(place) * glm::dvec2(rect.size);
 }
 
-const RayScene& SurfacePicker::Rays::of(const std::shared_ptr<const World>& wanted) {
-    if (world != wanted) {
-        scene.reset();
-        world = wanted;
-        scene = std::make_unique<RayScene>(*world);
-    }
-    return *scene;
-}
-
-const RayScene* SurfacePicker::rays() {
-    return mSession.hasWorld() ? &mShown.of(mSession.shownWorld()) : nullptr;
-}
-
-std::optional<RayScene::Hit> SurfacePicker::hitAt(glm::dvec2 positionPx, const ViewportRect& rect) {
-    const RayScene* const scene = rays();
-    if (scene == nullptr) {
+std::optional<SurfacePicker::Hit> SurfacePicker::hitAt(glm::dvec2 positionPx,
+                                                       const ViewportRect& rect) {
+    const ShownShape* const shape = mShapes.current();
+    if (shape == nullptr) {
         return std::nullopt;
     }
     const Ray ray = rayThrough(mSession.camera, rect.place(positionPx), rect.aspect());
-    return scene->nearest(ray.origin, ray.direction);
+    const auto hit = shape->rays->nearest(ray.origin, ray.direction);
+    return hit ? std::optional(Hit{*hit, *shape}) : std::nullopt;
 }
 
 std::optional<SurfacePoint> SurfacePicker::pick(glm::dvec2 positionPx, const ViewportRect& rect) {
-    const std::optional<RayScene::Hit> hit = hitAt(positionPx, rect);
-    return hit ? std::optional(surfacePoint(*mShown.world, hit->place)) : std::nullopt;
+    const std::optional<Hit> hit = hitAt(positionPx, rect);
+    return hit ? std::optional(surfacePoint(*hit->shape.world, hit->onShape.place)) : std::nullopt;
 }
 
 std::optional<SurfacePoint> SurfacePicker::pickAtRest(glm::dvec2 positionPx,
                                                       const ViewportRect& rect) {
-    const std::optional<RayScene::Hit> hit = hitAt(positionPx, rect);
-    return hit ? std::optional(surfacePoint(mSession.world(),
-                                            samePlace(hit->place, *mShown.world, mSession.world())))
-               : std::nullopt;
+    const std::optional<Hit> hit = hitAt(positionPx, rect);
+    if (!hit) {
+        return std::nullopt;
+    }
+    const World& rest = *hit->shape.rest;
+    return surfacePoint(rest, samePlace(hit->onShape.place, *hit->shape.world, rest));
 }
 
-glm::dvec3 SurfacePicker::shown(const glm::dvec3& restMm) {
-    if (!mSession.hasWorld() || mSession.shownWorld() == mSession.sharedWorld()) {
+glm::dvec3 SurfacePicker::shown(const glm::dvec3& restMm) const {
+    const ShownShape* const shape = mShapes.latest();
+    if (shape == nullptr || shape->rest != mSession.sharedWorld() || shape->world == shape->rest) {
         return restMm;
     }
-    const RayScene& rest = mRest.of(mSession.sharedWorld());
-    const double reach = 1e-3 * mSession.world().scatteringSphere.radius;
+    const double reach = 1e-3 * shape->rest->scatteringSphere.radius;
     std::optional<RayScene::Hit> nearest;
     for (int axis = 0; axis < 3; ++axis) { // one of them is steep enough to the surface
         glm::dvec3 direction(0.0);
         direction[axis] = 1.0;
-        const auto hit = rest.nearest(restMm - reach * direction, direction, 2.0 * reach);
+        const auto hit =
+            shape->restRays->nearest(restMm - reach * direction, direction, 2.0 * reach);
         if (hit && (!nearest ||
                     std::abs(hit->distanceMm - reach) < std::abs(nearest->distanceMm - reach))) {
             nearest = hit;
         }
     }
-    const World& world = *mSession.shownWorld();
     return nearest
-               ? surfacePoint(world, samePlace(nearest->place, mSession.world(), world)).positionMm
+               ? surfacePoint(*shape->world, samePlace(nearest->place, *shape->rest, *shape->world))
+                     .positionMm
                : restMm;
 }
 
 glm::dvec3 SurfacePicker::laidOn(const glm::dvec3& p, const glm::dvec3& normal, double reachMm) {
-    const RayScene* const scene = rays();
-    if (scene == nullptr) {
+    const ShownShape* const shape = mShapes.current();
+    if (shape == nullptr) {
         return p;
     }
-    const auto down = scene->nearest(p + reachMm * normal, -normal);
+    const auto down = shape->rays->nearest(p + reachMm * normal, -normal);
     return down && down->distanceMm < 2.0 * reachMm ? p + (reachMm - down->distanceMm) * normal : p;
 }
 

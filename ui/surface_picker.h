@@ -1,29 +1,32 @@
 #pragma once
 
-#include "renderer/reference/ray_scene.h"
-#include "ui/session.h"
+#include "ui/shown_shape.h"
 
 #include <glm/vec2.hpp>
 
-#include <memory>
 #include <optional>
 
-/// What lies under a place of the viewport.
+/// What lies under a place of the viewport. Answers wait for the shape that is shown where that is
+/// still being made: who must not wait asks isReady() before.
 namespace celadon::ui {
 
 struct ViewportRect;
 
 class SurfacePicker {
 public:
-    explicit SurfacePicker(Session& session) : mSession(session) {}
+    explicit SurfacePicker(Session& session) : mSession(session), mShapes(session) {}
+
+    /// See ShownShapes::isCurrent().
+    [[nodiscard]] bool isReady() { return mShapes.isCurrent(); }
+    [[nodiscard]] bool takeArrived() { return mShapes.takeArrived(); }
 
     /// The surface under a window pixel, as it is shown; null beside the object.
     [[nodiscard]] std::optional<SurfacePoint> pick(glm::dvec2 positionPx, const ViewportRect& rect);
     /// The same place on the rest shape, where materials and handles are.
     [[nodiscard]] std::optional<SurfacePoint> pickAtRest(glm::dvec2 positionPx,
                                                          const ViewportRect& rect);
-    /// Where a point of the rest shape's surface is shown.
-    [[nodiscard]] glm::dvec3 shown(const glm::dvec3& restMm);
+    /// Where a point of the rest shape's surface is shown, or was a moment ago: never waits.
+    [[nodiscard]] glm::dvec3 shown(const glm::dvec3& restMm) const;
     /// The surface along a line, near a point of it: p moved along the normal by up to `reachMm`.
     [[nodiscard]] glm::dvec3 laidOn(const glm::dvec3& p, const glm::dvec3& normal, double reachMm);
     /// What the view turns or zooms about: the surface under the cursor, else the point of the ray
@@ -31,18 +34,14 @@ public:
     [[nodiscard]] glm::dvec3 pivot(glm::dvec2 positionPx, const ViewportRect& rect);
 
 private:
-    /// Rays against a world, kept until another one is asked for.
-    struct Rays {
-        std::shared_ptr<const World> world; ///< of `scene`, which refers to it
-        std::unique_ptr<RayScene> scene;
-        const RayScene& of(const std::shared_ptr<const World>& wanted);
+    struct Hit {
+        RayScene::Hit onShape;
+        const ShownShape& shape;
     };
-    [[nodiscard]] const RayScene* rays(); ///< of what is shown; null: no world
-    [[nodiscard]] std::optional<RayScene::Hit> hitAt(glm::dvec2 positionPx,
-                                                     const ViewportRect& rect);
+    [[nodiscard]] std::optional<Hit> hitAt(glm::dvec2 positionPx, const ViewportRect& rect);
 
     Session& mSession;
-    Rays mShown, mRest;
+    ShownShapes mShapes;
 };
 
 /// Where a point is seen, window pixels.

@@ -2,6 +2,7 @@
 
 #include "ui/preparing_notice.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -262,7 +263,9 @@ void Viewport::draw(ImDrawList& list) const {
         drawOver(mTexture, mRect, list);
     }
     if (mIsPreparing) {
-        drawPreparing(list, mRect, mPreparing);
+        const std::optional<float> made = tablesMade();
+        drawPreparing(list, mRect,
+                      made ? fmt::format("{}: {:.0f} %", mPreparing, 100.0f * *made) : mPreparing);
     }
 }
 

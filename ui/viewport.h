@@ -67,6 +67,8 @@ public:
     [[nodiscard]] const std::deque<Timing>& timings() const { return mTimings; }
     /// The first picture of what was opened is long in coming: draw() says so.
     [[nodiscard]] bool isPreparing() const { return mIsPreparing; }
+    /// How much of the tables that pictures wait for is made, 0 to 1; nothing while none are.
+    [[nodiscard]] std::optional<float> tablesMade() const { return mWorker.tablesMade(); }
     [[nodiscard]] bool isWaiting() const {
         return mInFlight && mInFlight->purpose != Purpose::Rehearsal;
     }

@@ -118,7 +118,7 @@ void drawBrush(const Canvas& canvas, SurfacePicker& picker, glm::dvec2 at) {
     }
 }
 
-void drawScribbles(const Canvas& canvas, SurfacePicker& picker) {
+void drawScribbles(const Canvas& canvas, const SurfacePicker& picker) {
     for (const subedit::Scribble& scribble : canvas.session.paint.propagation.scribbles) {
         std::vector<ImVec2> points;
         for (const subedit::StrokePoint& point : scribble.path) {
@@ -133,7 +133,7 @@ void drawScribbles(const Canvas& canvas, SurfacePicker& picker) {
     }
 }
 
-void drawPlaces(const Canvas& canvas, SurfacePicker& picker) {
+void drawPlaces(const Canvas& canvas, const SurfacePicker& picker) {
     const PaintState& paint = canvas.session.paint;
     if (paint.tool != Tool::Paint) {
         return;
@@ -218,7 +218,7 @@ void drawViewportOverlay(ImDrawList& list, const Session& session, SurfacePicker
         drawScribbles(canvas, picker);
     }
     drawPlaces(canvas, picker);
-    if (brushAt) {
+    if (brushAt && picker.isReady()) {
         drawBrush(canvas, picker, *brushAt);
     }
     drawLights(canvas);

@@ -104,6 +104,29 @@ void ViewportTools::handle(const InputEvent& event, const ViewportRect& rect, bo
     }
 }
 
+bool ViewportTools::picks(const InputEvent& event, const ViewportRect& rect, bool overUi) const {
+    const bool begins = !overUi && rect.contains(event.positionPx);
+    switch (event.kind) {
+    case InputEvent::Kind::Press:
+        if (event.button == GLFW_MOUSE_BUTTON_LEFT && (event.modifiers & GLFW_MOD_ALT) == 0) {
+            return begins && mDrag == Drag::None && controlAt(event.positionPx, rect) < 0;
+        }
+        return begins && mDrag == Drag::None; // where the view turns or zooms about
+    case InputEvent::Kind::Wheel:
+        return begins;
+    case InputEvent::Kind::Move:
+    case InputEvent::Kind::Release:
+        return mDrag == Drag::Paint || mDrag == Drag::Scribble || mDrag == Drag::Line;
+    case InputEvent::Kind::Key:
+        break;
+    }
+    return false;
+}
+
+bool ViewportTools::mustWait(const InputEvent& event, const ViewportRect& rect, bool overUi) {
+    return mSession.hasWorld() && !mAdjust && picks(event, rect, overUi) && !mPicker.isReady();
+}
+
 void ViewportTools::press(const InputEvent& event, const ViewportRect& rect) {
     const bool alt = (event.modifiers & GLFW_MOD_ALT) != 0;
     const bool shift = (event.modifiers & GLFW_MOD_SHIFT) != 0;

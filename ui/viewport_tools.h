@@ -21,6 +21,13 @@ public:
 
     /// @param overUi the cursor is on a panel, which takes what begins there
     void handle(const InputEvent& event, const ViewportRect& rect, bool overUi);
+    /// What handle() would do takes the shape that is shown, and that is still being made: it would
+    /// wait for it.
+    [[nodiscard]] bool mustWait(const InputEvent& event, const ViewportRect& rect, bool overUi);
+    /// From now on that shape is made, without anybody waiting for it.
+    void prepare() { static_cast<void>(mPicker.isReady()); }
+    /// @return whether a shape that was awaited has come
+    [[nodiscard]] bool takeArrived() { return mPicker.takeArrived(); }
     [[nodiscard]] bool isDragging() const { return mDrag != Drag::None; }
 
     /// Escape: a stroke, a dragged part of the shape or a change of the brush as if it had never
@@ -56,6 +63,7 @@ public:
 private:
     enum class Drag { None, Orbit, Pan, Zoom, Light, Control, Paint, Scribble, Line };
 
+    [[nodiscard]] bool picks(const InputEvent& event, const ViewportRect& rect, bool overUi) const;
     void press(const InputEvent& event, const ViewportRect& rect);
     void move(const InputEvent& event, const ViewportRect& rect);
     void wheel(const InputEvent& event, const ViewportRect& rect);

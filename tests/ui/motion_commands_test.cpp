@@ -100,7 +100,6 @@ TEST_F(MotionCommands, ControlPointsAndHandlesFollowTheHandThroughWhatComesAfter
     EXPECT_EQ(session.motion.selected, 2);
     EXPECT_EQ(session.motion.control, 1);
     expectFollows(1);
-    EXPECT_NE(session.shownWorld(), session.sharedWorld());
     session.motion.areControlsShown = false;
     EXPECT_TRUE(shownControls(session).empty());
     EXPECT_THROW(session.execute(

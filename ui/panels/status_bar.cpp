@@ -62,7 +62,7 @@ void drawStatusBar(const LayoutContext& context) {
         ImGui::PushFont(font(Font::Small));
         if (!context.state.activity.empty()) {
             ImGui::TextColored(palette().warning, "%s", context.state.activity.c_str());
-            if (context.state.isOpening) {
+            if (context.state.canCancel) {
                 ImGui::SameLine();
                 drawCancel(context, ImGui::GetFontSize() + 2.0f * scale);
             }

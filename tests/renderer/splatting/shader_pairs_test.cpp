@@ -300,6 +300,29 @@ TEST_F(ShaderPairs, ManyMaterialsBesideOneAnother) {
     expectSame();
 }
 
+/// Large maps are made in parts, between which it can end.
+TEST_F(ShaderPairs, MaterialsTellHowFarTheyAre) {
+    const MaterialPointer large = test::makeMaterial("large", 256, 8, 5.0f, [](int x, int) {
+        return test::ProfileRecipe{glm::dvec3(0.5), glm::dvec3(0.4 + 0.001 * x)};
+    });
+    const std::array maps{test::chessboardMaterial(), large};
+    std::vector<float> told;
+    const GpuMaterials materials(maps, 0.99, 0.01, ExitFresnel::Exact,
+                                 [&](float done) { told.push_back(done); });
+    EXPECT_GE(told.size(), 3u);
+    EXPECT_TRUE(std::ranges::is_sorted(told));
+    EXPECT_EQ(told.front(), 0.0f);
+    EXPECT_LT(told.back(), 1.0f);
+    struct Enough {};
+    EXPECT_THROW(GpuMaterials(maps, 0.99, 0.01, ExitFresnel::Exact,
+                              [](float done) {
+                                  if (done > 0.0f) {
+                                      throw Enough();
+                                  }
+                              }),
+                 Enough);
+}
+
 TEST_F(ShaderPairs, RangeTable) {
     const MaterialPointer material = test::chessboardMaterial();
     const GpuMaterials materials(std::array{material}, 0.99, 0.01, ExitFresnel::Exact);
