@@ -140,8 +140,9 @@ void Dispatcher::add(const std::string& name, const std::string& summary, Handle
     insert(name, {summary, std::move(handler), isRecorded});
 }
 
-void Dispatcher::addEdit(const std::string& name, const std::string& summary, Handler handler) {
-    insert(name, {summary, std::move(handler), false, true});
+void Dispatcher::addLong(const std::string& name, const std::string& summary, Handler handler,
+                         bool isRecorded) {
+    insert(name, {summary, std::move(handler), isRecorded, true});
 }
 
 void Dispatcher::execute(const Command& command) {

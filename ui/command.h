@@ -70,9 +70,10 @@ public:
     /// @param name not registered before
     void add(const std::string& name, const std::string& summary, Handler handler,
              bool isRecorded = true);
-    /// The same for what may take longer than a frame; it is recorded when it is done, as what it
-    /// came to. @param name not registered before
-    void addEdit(const std::string& name, const std::string& summary, Handler handler);
+    /// The same for what may take longer than a frame.
+    /// @param isRecorded false: by the handler, when it is done, as what it came to
+    void addLong(const std::string& name, const std::string& summary, Handler handler,
+                 bool isRecorded = false);
     /// @throws UsageError for an unknown command, one with an argument of the wrong type; whatever
     ///         the handler throws. Observers hear of commands that succeeded.
     void execute(const Command& command);

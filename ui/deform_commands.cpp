@@ -370,6 +370,10 @@ void addDeformCommands(Session& session) {
         commands.add(
             name, summary, [&session, act](const Arguments& a) { act(session, a); }, isRecorded);
     };
+    const auto addLong = [&](const char* name, const char* summary, Act act) {
+        commands.addLong(
+            name, summary, [&session, act](const Arguments& a) { act(session, a); }, true);
+    };
     add("deform.add", "Adds twist, bend, taper, wave, inflate or lattice at the end", addDeformer);
     add("deform.remove", "Takes a deformer out of the list", removeDeformer);
     add("deform.order", "Moves a deformer to another place in the list", orderDeformer);
@@ -382,8 +386,8 @@ void addDeformCommands(Session& session) {
         [](Session& s, const Arguments& a) {
             change(s, deformerIndex(s, a), a, [&](AnimatedDeformer& d) { movePoint(s, d, a); });
         });
-    add("deform.handle.add", "Adds a handle at a point of the rest shape, with a radius",
-        addHandle);
+    addLong("deform.handle.add", "Adds a handle at a point of the rest shape, with a radius",
+            addHandle);
     add("deform.handle.change", "Moves or turns a handle, or gives it another radius",
         changeHandle);
     add("deform.handle.remove", "Takes a handle away", removeHandle);

@@ -76,10 +76,11 @@ void FileActions::openDeformers() {
 
 void FileActions::replaceDeformers(const std::filesystem::path& file) {
     try {
-        if (mSession.perform(
-                {"deform.stack", loaders::deformersJson(loaders::readDeformers(file))})) {
+        const Command command{"deform.stack", loaders::deformersJson(loaders::readDeformers(file))};
+        mSession.performLong([this, command] {
+            mSession.execute(command);
             mSession.markDeformersSaved();
-        }
+        });
     } catch (const Error& error) {
         mSession.notify(Notice::Kind::Error, error.what());
     }

@@ -155,7 +155,7 @@ void addFileCommands(Session& session) {
                      session.adopt(request, prepareScene(session.services().readWorld(request),
                                                          session.services().isPaintable));
                  });
-    commands.addEdit("file.export", "Writes a glTF with the materials as SubEdit files beside it",
+    commands.addLong("file.export", "Writes a glTF with the materials as SubEdit files beside it",
                      [&session](const Arguments& a) {
                          exportGltf(session, a.text("file"));
                          session.dispatcher().announce({"file.export", {{"file", a.text("file")}}});

@@ -1,5 +1,6 @@
 #include "ui/opened_scene.h"
 
+#include "renderer/scene/motion.h"
 #include "renderer/scene/surface_atlas_of_world.h"
 #include "subedit/errors.h"
 #include "subedit/map/material_convert.h"
@@ -11,6 +12,9 @@ namespace celadon::ui {
 using subedit::MaterialMap;
 
 OpenedScene prepareScene(World world, bool paintable) {
+    if (world.rig && world.rig->deformers) { // handles that are stored are prepared here
+        static_cast<void>(Motion(world));
+    }
     OpenedScene scene;
     for (std::size_t i = 0; i < world.materials.size(); ++i) {
         const MaterialMap& map = *world.materials[i];

@@ -153,10 +153,10 @@ void Session::endStroke() {
         return;
     }
     const int material = std::exchange(mStrokeMaterial, -1);
-    if (onProgress && !mStroke.isLive) {
-        mWaiting.push_back([this, material, stroke = mStroke] { finishStroke(material, stroke); });
-    } else {
+    if (mStroke.isLive) {
         finishStroke(material, mStroke);
+    } else {
+        performLong([this, material, stroke = mStroke] { finishStroke(material, stroke); });
     }
 }
 
@@ -205,7 +205,7 @@ void addPaintCommands(Session& session) {
                      session.touchMaterial();
                  });
     // Both may take long, so they are recorded when they are done.
-    commands.addEdit("edit.undo", "Takes back the last change of the material or of the deformers",
+    commands.addLong("edit.undo", "Takes back the last change of the material or of the deformers",
                      [&session](const Arguments&) {
                          refuseDuringStroke(session);
                          if (session.undoMotion() || session.undoEdit()) {
@@ -216,7 +216,7 @@ void addPaintCommands(Session& session) {
                                               "much memory undoing may take");
                          }
                      });
-    commands.addEdit("edit.redo", "Repeats what was taken back", [&session](const Arguments&) {
+    commands.addLong("edit.redo", "Repeats what was taken back", [&session](const Arguments&) {
         refuseDuringStroke(session);
         if (session.redoMotion() || session.redoEdit()) {
             session.dispatcher().announce({"edit.redo", {}});
@@ -228,15 +228,15 @@ void addPaintCommands(Session& session) {
                          a.integerWithin("material", 0, std::max(0, session.materialCount() - 1));
                  });
     // These depend on what the hand holds: they are recorded as the edit that they come to.
-    commands.addEdit("edit.fill", "Applies the operator to everything that is selected",
+    commands.addLong("edit.fill", "Applies the operator to everything that is selected",
                      [&session](const Arguments& a) {
                          session.edit(subedit::ApplyCommand{
                              makeOperator(session.paint, a.flag("inverted", false))});
                      });
-    commands.addEdit(
+    commands.addLong(
         "select.change", "all, none, invert; grow, shrink, feather by mm along the surface",
         [&session](const Arguments& a) { session.edit(subedit::SelectCommand{selectionStep(a)}); });
-    commands.addEdit(
+    commands.addLong(
         "select.similar", "Texels whose profile is like that at a point: position and normal",
         [&session](const Arguments& a) {
             subedit::SelectSimilar similar;

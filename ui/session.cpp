@@ -24,11 +24,18 @@ Session::Session(SessionServices services) : mServices(std::move(services)) {
 }
 
 bool Session::perform(const Command& command) {
-    if (onProgress && (mDispatcher.isLong(command.name) || !mWaiting.empty())) {
-        mWaiting.push_back([this, command] { mDispatcher.execute(command); });
-        return true; // or comes after one that waits
+    // What is not long itself comes after what waits.
+    return mDispatcher.isLong(command.name) || !mWaiting.empty()
+               ? performLong([this, command] { mDispatcher.execute(command); })
+               : performNow(command);
+}
+
+bool Session::performLong(std::function<void()> action) {
+    if (!onProgress) {
+        return attempt(action);
     }
-    return performNow(command);
+    mWaiting.push_back(std::move(action));
+    return true;
 }
 
 bool Session::performNow(const Command& command) {

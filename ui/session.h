@@ -77,7 +77,9 @@ public:
     /// with somebody to tell, commands that may take long wait for its end (performWaiting()).
     /// @return whether it was done, or waits
     bool perform(const Command& command);
-    /// The same, at once. For what is replayed in an order of its own.
+    /// The same for more than a command that may take long.
+    bool performLong(std::function<void()> action);
+    /// The same as perform(), at once. For what is replayed in an order of its own.
     bool performNow(const Command& command);
     void performWaiting();
     /// Something waits: what comes later must not overtake it.

@@ -1,5 +1,7 @@
 // What moves the model, and how it is undone.
+#include "renderer/scene/handle_ground.h"
 #include "renderer/scene/motion.h"
+#include "subedit/document/edit_progress.h"
 #include "subedit/errors.h"
 #include "ui/session.h"
 
@@ -53,6 +55,12 @@ void Session::adoptMotion(bool isSameModel) {
 
 void Session::setMotion(MotionSetting next) {
     const bool isChanged = next.deformers != motion.now.deformers;
+    if (const auto handles = mMover->handlesNewIn(next.deformers);
+        !handles.empty() && mWorld->handleGround) { // for a large model, a long job
+        subedit::doTelling(progressOf("preparing handles"), [&] {
+            static_cast<void>(mWorld->handleGround->nodes(*mWorld, handles));
+        });
+    }
     mMover->setDeformers(next.deformers);
     mMover->selectAnimation(next.animation);
     motion.now = std::move(next);

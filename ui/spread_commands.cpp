@@ -100,7 +100,7 @@ void addScribbles(Session& session) {
         "scribble.change",
         "Similarity at which propagation falls to 1/e, and distance in mm (0: any)",
         [&session](const Arguments& a) { changePropagation(session.paint.propagation, a); });
-    commands.addEdit(
+    commands.addLong(
         "scribble.apply",
         "Spreads the operator, or with select the selection, from the scribbles, and takes "
         "them away",

@@ -9,13 +9,10 @@
 #include <vector>
 
 /// Handles on a world at rest: parts of its surface that are held or dragged, and the rest of it
-/// follows as rigidly as possible (rigid_solver.h). Up to kMostNodes vertices are nodes themselves;
-/// of larger models some kClusterNodes points, spread over the surface, carry the vertices around
-/// them (node_blend.h). Vertices at equal positions are one, whichever meshes they belong to.
+/// follows as rigidly as possible (rigid_solver.h). The nodes that are moved are vertices, or stand
+/// for those around them (handle_ground.h). Vertices at equal positions are one, whichever meshes
+/// they belong to.
 namespace celadon {
-
-inline constexpr std::size_t kMostNodes = 20000;
-inline constexpr std::size_t kClusterNodes = 4000;
 
 /// How far the search for a pose goes.
 enum class Settling {
@@ -25,7 +22,7 @@ enum class Settling {
 
 class HandleSolver {
 public:
-    /// Makes the graph and factors its system: from milliseconds to a second or so.
+    /// Factors the system of the nodes, once World::handleGround has them: which can take seconds.
     /// @param handles where they are at rest; at least one
     /// @throws InputError: no triangles; a handle that has no vertex of its own
     HandleSolver(const World& rest, const std::vector<PlacedHandle>& handles);

@@ -34,9 +34,21 @@ double orientation(const MeshPose& pose) {
     return glm::determinant(glm::dmat3(pose.matrices.front()));
 }
 
-/// Where handles are before they are moved.
-std::vector<PlacedHandle> restPlaces(const AnimatedDeformer& deformer, const World& rest) {
-    std::vector<PlacedHandle> places = deformer.handlesAt(0.0, rest.millimetersPerUnit);
+/// The handles of a stack; null: none are on.
+const AnimatedDeformer* handlesOf(const DeformerStack& deformers) {
+    const auto found =
+        std::find_if(deformers.begin(), deformers.end(), [](const AnimatedDeformer& deformer) {
+            return deformer.isOn && deformer.kind == Deformer::Kind::Handles;
+        });
+    return found == deformers.end() ? nullptr : &*found;
+}
+
+/// Where handles are before they are moved; empty without any.
+std::vector<PlacedHandle> restPlaces(const AnimatedDeformer* deformer, const World& rest) {
+    std::vector<PlacedHandle> places;
+    if (deformer != nullptr) {
+        places = deformer->handlesAt(0.0, rest.millimetersPerUnit);
+    }
     for (PlacedHandle& place : places) {
         place.to = place.at;
         place.turn = glm::dmat3(1.0);
@@ -76,31 +88,27 @@ std::span<const Animation> Motion::animations() const {
                      : std::span<const Animation>();
 }
 
+std::vector<PlacedHandle> Motion::handlesNewIn(const DeformerStack& deformers) const {
+    std::vector<PlacedHandle> places = restPlaces(handlesOf(deformers), mRest);
+    return mHandles && places == restPlaces(handlesOf(mDeformers), mRest)
+               ? std::vector<PlacedHandle>()
+               : places;
+}
+
 void Motion::setDeformers(DeformerStack deformers) {
-    const AnimatedDeformer* const before = handles();
-    const auto placesBefore =
-        before == nullptr ? std::vector<PlacedHandle>() : restPlaces(*before, mRest);
+    const std::vector<PlacedHandle> places = handlesNewIn(deformers);
     deformers.swap(mDeformers);
     try {
         static_cast<void>(deformersAt(0.0));
-        const AnimatedDeformer* const after = handles();
-        if (after == nullptr) {
+        if (handlesOf(mDeformers) == nullptr) {
             mHandles.reset();
-        } else if (restPlaces(*after, mRest) != placesBefore || !mHandles) {
-            mHandles = std::make_unique<HandleSolver>(mRest, restPlaces(*after, mRest));
+        } else if (!places.empty()) {
+            mHandles = std::make_unique<HandleSolver>(mRest, places);
         }
     } catch (...) {
         mDeformers = std::move(deformers);
         throw;
     }
-}
-
-const AnimatedDeformer* Motion::handles() const {
-    const auto found =
-        std::find_if(mDeformers.begin(), mDeformers.end(), [](const AnimatedDeformer& deformer) {
-            return deformer.isOn && deformer.kind == Deformer::Kind::Handles;
-        });
-    return found == mDeformers.end() ? nullptr : &*found;
 }
 
 std::vector<std::string> Motion::warnings() const {
@@ -154,7 +162,7 @@ Pose Motion::at(double seconds, Settling settling) const {
     result.meshes.resize(mRest.meshes.size());
     result.mirrored.resize(mRest.meshes.size());
     result.deformers = deformersAt(seconds);
-    if (const AnimatedDeformer* const held = handles()) {
+    if (const AnimatedDeformer* const held = handlesOf(mDeformers)) {
         result.nodes =
             mHandles->solve(held->handlesAt(seconds, mRest.millimetersPerUnit), settling);
     }

@@ -50,6 +50,9 @@ public:
     /// @throws UsageError: an axis along which the world has no extent; InputError. Nothing has
     ///         changed then.
     void setDeformers(DeformerStack deformers);
+    /// What setDeformers() would first need of World::handleGround: where the handles of a stack
+    /// are at rest, unless this motion has them. Empty: nothing that takes long.
+    [[nodiscard]] std::vector<PlacedHandle> handlesNewIn(const DeformerStack& deformers) const;
     [[nodiscard]] const DeformerStack& deformers() const { return mDeformers; }
     [[nodiscard]] const RestBox& restBox() const { return mBox; }
     /// What the user should know about the deformers, one line each.
@@ -79,7 +82,6 @@ private:
 
     [[nodiscard]] Viewpoints viewpointsOf(const RigPose& pose) const;
     [[nodiscard]] std::vector<Deformer> deformersAt(double seconds) const;
-    [[nodiscard]] const AnimatedDeformer* handles() const; ///< null: none that is on
 };
 
 /// A copy whose vertices are moved, on the CPU in double precision: cameras, lights and bounding

@@ -138,6 +138,7 @@ World posedWorld(const World& rest, const Pose& pose) {
         }
     }
     result.rig.reset();
+    result.handleGround.reset(); // it is of the rest shape
     result.cameras = pose.cameras;
     result.lights = pose.lights;
     result.scatteringSphere = boundingSphere(scattering);

@@ -1,5 +1,6 @@
 #include "renderer/scene/world.h"
 
+#include "renderer/scene/handle_ground.h"
 #include "renderer/scene/world_atlas.h"
 #include "subedit/assert.h"
 #include "subedit/errors.h"
@@ -143,6 +144,7 @@ World buildWorld(Scene scene, const MaterialPointer& override,
     }
 
     World world;
+    world.handleGround = std::make_shared<HandleGround>();
     world.millimetersPerUnit = unit;
     scaleIntoMillimeters(scene, unit);
     world.scatteringSphere = boundingSphere(scene, scatters);

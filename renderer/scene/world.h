@@ -13,6 +13,8 @@
 /// unchanged.
 namespace celadon {
 
+class HandleGround;
+
 using MaterialPointer = std::shared_ptr<const subedit::MaterialMap>;
 
 struct WorldMesh {
@@ -34,6 +36,8 @@ struct World {
     bool hasAutomaticAtlas = false;  ///< texture coordinates that the model did not have
     std::vector<std::string> warnings;
     std::shared_ptr<const Rig> rig; ///< of animations, in model units; null: none
+    /// Of these meshes, for all who move them; null: each makes its own.
+    std::shared_ptr<HandleGround> handleGround;
 };
 
 /// How long a model unit is: given, or from the wanted diameter of the scattering meshes' bounding

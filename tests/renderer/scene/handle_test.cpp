@@ -1,3 +1,4 @@
+#include "renderer/scene/handle_ground.h"
 #include "renderer/scene/handle_solver.h"
 #include "renderer/scene/motion.h"
 #include "renderer/scene/rigid_solver.h"
@@ -203,6 +204,32 @@ TEST(HandleSolver, HandlesWithoutAVertexOfTheirOwnAreRefused) {
         p = glm::vec3(1.0f);
     }
     EXPECT_THROW(HandleSolver(empty, {handle({0, 0, 0}, 5)}), InputError);
+}
+
+// What takes long is made once, for all who move a world and however many handles they have.
+TEST(HandleSolver, ShareWhatTheyKnowOfTheShapeAtRest) {
+    World world = worldOf({tube(24, 40)});
+    const std::vector<PlacedHandle> one{handle({0, 0, 0}, 14)};
+    const std::vector<PlacedHandle> two{handle({0, 0, 0}, 14), handle({0, 100, 0}, 14)};
+    const auto alone = moved(*HandleSolver(world, two).solve(two));
+    world.handleGround = std::make_shared<HandleGround>();
+    const auto first = HandleSolver(world, one).solve(one);
+    const auto second = HandleSolver(world, two).solve(two);
+    EXPECT_EQ(first->binding, second->binding);
+    const auto shared = moved(*second);
+    for (std::size_t i = 0; i < shared.size(); ++i) {
+        EXPECT_EQ(shared[i].position, alone[i].position);
+    }
+    // Another component is held: other nodes.
+    World parts = worldOf({tube(24, 40), tube(24, 40)});
+    for (glm::vec3& p : parts.meshes[1].mesh.positions) {
+        p.x += 300.0f;
+    }
+    parts.handleGround = std::make_shared<HandleGround>();
+    const std::vector<PlacedHandle> other{handle({300, 0, 0}, 14)};
+    EXPECT_NE(HandleSolver(parts, one).solve(one)->binding,
+              HandleSolver(parts, other).solve(other)->binding);
+    EXPECT_FALSE(HandleSolver(parts, one).warnings().empty());
 }
 
 // Above kMostNodes a few points carry the rest: what they make of it is as smooth as the shape, its
