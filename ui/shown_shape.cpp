@@ -49,11 +49,12 @@ void ShownShapes::begin() {
     if (!mPoser || mPoser->rest != mSession.sharedWorld()) {
         mPoser = std::make_shared<Poser>(mSession.sharedWorld());
     }
-    mComing = std::async(std::launch::async, [poser = mPoser, setting = mSession.motion.now] {
-        struct Wake {
-            ~Wake() { Window::wake(); }
-        } const wake;
-        return make(*poser, setting);
+    std::packaged_task<std::shared_ptr<const ShownShape>()> task(
+        [poser = mPoser, setting = mSession.motion.now] { return make(*poser, setting); });
+    mComing = task.get_future();
+    mThread = std::jthread([task = std::move(task)]() mutable {
+        task();
+        Window::wake(); // once it can be taken: nobody looks again before
     });
 }
 

@@ -6,6 +6,7 @@
 
 #include <future>
 #include <memory>
+#include <thread>
 
 /// The surface as it is shown at a moment, for rays. To pose a large model and to sort its
 /// triangles takes a second: that is done on a thread of its own.
@@ -51,6 +52,7 @@ private:
     std::shared_ptr<const ShownShape> mLatest;
     std::future<std::shared_ptr<const ShownShape>> mComing;
     bool mHasArrived = false;
+    std::jthread mThread; ///< last: it is waited for before the rest goes
 };
 
 } // namespace celadon::ui

@@ -1,6 +1,6 @@
-#include "renderer/scene/builtin.h"
 #include "subedit/errors.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/ui/ball_world.h"
 #include "ui/deform_controls.h"
 #include "ui/session.h"
 
@@ -12,19 +12,9 @@
 namespace celadon::ui {
 namespace {
 
-/// A ball, 40 mm across: 0.4 mm per unit.
-World readBall(const OpenRequest&) {
-    const NamedProfile plain{"plain", diffusionProfile(glm::vec3(0.6f), glm::vec3(2.0f))};
-    auto material = std::make_shared<subedit::MaterialMap>(homogeneousMaterial(plain, 1.3f));
-    Scene scene = makeBuiltin("sphere");
-    const std::size_t materials = scene.materials.size();
-    return buildWorld(std::move(scene), material, std::vector<MaterialPointer>(materials), nullptr,
-                      {std::nullopt, 40.0});
-}
-
 class MotionCommands : public testing::Test {
 protected:
-    MotionCommands() : session({readBall, {}, false}) {
+    MotionCommands() : session({test::readBall, {}, false}) {
         session.dispatcher().observe(
             [this](const Command& command) { recorded.push_back(command); });
         session.execute({"file.open", {{"model", "ball"}}});
@@ -200,7 +190,7 @@ TEST_F(MotionCommands, ARecordGivesTheSameMotionAgain) {
     session.advanceTime(0.7);
     session.execute({"motion.play", {{"on", false}, {"seconds", session.motion.now.seconds}}});
     session.execute({"edit.undo"});
-    Session other({readBall, {}, false});
+    Session other({test::readBall, {}, false});
     for (const Command& command : recorded) {
         other.execute(parseCommand(formatCommand(command)));
     }
@@ -237,7 +227,7 @@ TEST_F(MotionCommands, TheSameModelReadAgainKeepsDeformersAndTime) {
 /// The ball with a camera and a lamp on one node, which an animation carries along x by 2 units in
 /// a second.
 World readCarriedCamera(const OpenRequest& request) {
-    World world = readBall(request);
+    World world = test::readBall(request);
     auto rig = std::make_shared<Rig>();
     rig->nodes.resize(1);
     rig->parentsFirst = {0};

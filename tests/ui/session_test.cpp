@@ -5,6 +5,7 @@
 #include "subedit/map/material_convert.h"
 #include "subedit/map/material_file.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/ui/ball_world.h"
 #include "ui/session.h"
 
 #include <gtest/gtest.h>
@@ -47,12 +48,7 @@ World readBall(const OpenRequest& request) {
     if (request.model != "ball") {
         throw InputError("'" + request.model + "'", "cannot be opened");
     }
-    const NamedProfile plain{"plain", diffusionProfile(glm::vec3(0.6f), glm::vec3(2.0f))};
-    auto material = std::make_shared<subedit::MaterialMap>(homogeneousMaterial(plain, 1.3f));
-    Scene scene = makeBuiltin("sphere");
-    const std::size_t materials = scene.materials.size();
-    return buildWorld(std::move(scene), material, std::vector<MaterialPointer>(materials), nullptr,
-                      {std::nullopt, 40.0});
+    return test::readBall(request);
 }
 
 nlohmann::json describe(const subedit::MaterialMap& map, const std::string& reference) {

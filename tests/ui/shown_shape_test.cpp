@@ -1,5 +1,5 @@
 // The shape that is shown, made on another thread: always that of the moment that is asked for.
-#include "renderer/scene/builtin.h"
+#include "tests/ui/ball_world.h"
 #include "ui/shown_shape.h"
 
 #include <gtest/gtest.h>
@@ -10,18 +10,9 @@
 namespace celadon::ui {
 namespace {
 
-World readBall(const OpenRequest&) {
-    const NamedProfile plain{"plain", diffusionProfile(glm::vec3(0.6f), glm::vec3(2.0f))};
-    auto material = std::make_shared<subedit::MaterialMap>(homogeneousMaterial(plain, 1.3f));
-    Scene scene = makeBuiltin("sphere");
-    const std::size_t materials = scene.materials.size();
-    return buildWorld(std::move(scene), material, std::vector<MaterialPointer>(materials), nullptr,
-                      {std::nullopt, 40.0});
-}
-
 class ShownShapeTest : public testing::Test {
 protected:
-    ShownShapeTest() : session({readBall, {}, false}), shapes(session) {}
+    ShownShapeTest() : session({test::readBall, {}, false}), shapes(session) {}
     void open() { session.execute({"file.open", {{"model", "ball"}}}); }
     void inflate(double amount) {
         session.execute({"deform.change", {{"deformer", 0}, {"amount", amount}}});
