@@ -370,10 +370,6 @@ void addDeformCommands(Session& session) {
         commands.add(
             name, summary, [&session, act](const Arguments& a) { act(session, a); }, isRecorded);
     };
-    const auto addLong = [&](const char* name, const char* summary, Act act) {
-        commands.addLong(
-            name, summary, [&session, act](const Arguments& a) { act(session, a); }, true);
-    };
     add("deform.add", "Adds twist, bend, taper, wave, inflate or lattice at the end", addDeformer);
     add("deform.remove", "Takes a deformer out of the list", removeDeformer);
     add("deform.order", "Moves a deformer to another place in the list", orderDeformer);
@@ -386,8 +382,9 @@ void addDeformCommands(Session& session) {
         [](Session& s, const Arguments& a) {
             change(s, deformerIndex(s, a), a, [&](AnimatedDeformer& d) { movePoint(s, d, a); });
         });
-    addLong("deform.handle.add", "Adds a handle at a point of the rest shape, with a radius",
-            addHandle);
+    commands.addLong(
+        "deform.handle.add", "Adds a handle at a point of the rest shape, with a radius",
+        [&session](const Arguments& a) { addHandle(session, a); }, true);
     add("deform.handle.change", "Moves or turns a handle, or gives it another radius",
         changeHandle);
     add("deform.handle.remove", "Takes a handle away", removeHandle);

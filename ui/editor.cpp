@@ -464,11 +464,8 @@ void Editor::worldOpened() {
 bool Editor::play() {
     const auto now = std::chrono::steady_clock::now();
     const bool isOn = mLayout.isTurning || mSession.motion.isPlaying;
-    if (!isOn || !mSession.hasWorld()) {
-        mPlayedUntil = now;
-        return false;
-    }
-    if (!mLater.empty()) { // the hand waits for the shape of this moment
+    const bool isHeld = !mLater.empty(); // the hand waits for the shape of this moment
+    if (!isOn || isHeld || !mSession.hasWorld()) {
         mPlayedUntil = now;
         return false;
     }

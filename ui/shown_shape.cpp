@@ -4,7 +4,6 @@
 #include "ui/window.h"
 
 #include <chrono>
-#include <exception>
 #include <utility>
 
 namespace celadon::ui {

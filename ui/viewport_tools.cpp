@@ -20,6 +20,11 @@ constexpr double kDegreesPerWidth = 220.0; ///< a drag across the viewport's hei
 constexpr double kZoomPerNotch = 0.88;
 constexpr double kGizmoReachPx = 14.0; ///< at a scale of 1
 
+/// Else the button is the view's.
+bool isForTool(const InputEvent& press) {
+    return press.button == GLFW_MOUSE_BUTTON_LEFT && (press.modifiers & GLFW_MOD_ALT) == 0;
+}
+
 } // namespace
 
 int ViewportTools::lightAt(glm::dvec2 positionPx, const ViewportRect& rect) const {
@@ -104,14 +109,29 @@ void ViewportTools::handle(const InputEvent& event, const ViewportRect& rect, bo
     }
 }
 
+ViewportTools::Drag ViewportTools::viewDrag(const InputEvent& event) {
+    const bool alt = (event.modifiers & GLFW_MOD_ALT) != 0;
+    const bool shift = (event.modifiers & GLFW_MOD_SHIFT) != 0;
+    if (event.button == GLFW_MOUSE_BUTTON_MIDDLE) {
+        return shift || alt ? Drag::Pan : Drag::Orbit;
+    }
+    if (event.button == GLFW_MOUSE_BUTTON_RIGHT) {
+        return alt ? Drag::Zoom : Drag::None;
+    }
+    return Drag::Orbit; // Alt and the left button
+}
+
 bool ViewportTools::picks(const InputEvent& event, const ViewportRect& rect, bool overUi) const {
     const bool begins = !overUi && rect.contains(event.positionPx);
     switch (event.kind) {
     case InputEvent::Kind::Press:
-        if (event.button == GLFW_MOUSE_BUTTON_LEFT && (event.modifiers & GLFW_MOD_ALT) == 0) {
-            return begins && mDrag == Drag::None && controlAt(event.positionPx, rect) < 0;
+        if (!begins || mDrag != Drag::None) {
+            return false;
         }
-        return begins && mDrag == Drag::None; // where the view turns or zooms about
+        if (isForTool(event)) {
+            return controlAt(event.positionPx, rect) < 0;
+        }
+        return viewDrag(event) == Drag::Pan || viewDrag(event) == Drag::Zoom;
     case InputEvent::Kind::Wheel:
         return begins;
     case InputEvent::Kind::Move:
@@ -128,11 +148,9 @@ bool ViewportTools::mustWait(const InputEvent& event, const ViewportRect& rect, 
 }
 
 void ViewportTools::press(const InputEvent& event, const ViewportRect& rect) {
-    const bool alt = (event.modifiers & GLFW_MOD_ALT) != 0;
-    const bool shift = (event.modifiers & GLFW_MOD_SHIFT) != 0;
     mButton = event.button;
     mLast = event.positionPx;
-    if (event.button == GLFW_MOUSE_BUTTON_LEFT && !alt) {
+    if (isForTool(event)) {
         mControl = controlAt(event.positionPx, rect);
         if (mControl >= 0) {
             mDrag = Drag::Control;
@@ -150,14 +168,10 @@ void ViewportTools::press(const InputEvent& event, const ViewportRect& rect) {
         pressTool(event, rect);
         return;
     }
-    if (event.button == GLFW_MOUSE_BUTTON_MIDDLE) {
-        mDrag = shift || alt ? Drag::Pan : Drag::Orbit;
-    } else if (event.button == GLFW_MOUSE_BUTTON_RIGHT) {
-        mDrag = alt ? Drag::Zoom : Drag::None;
-    } else {
-        mDrag = Drag::Orbit; // Alt and the left button
+    mDrag = viewDrag(event);
+    if (mDrag == Drag::Pan || mDrag == Drag::Zoom) {
+        mPivot = mPicker.pivot(event.positionPx, rect);
     }
-    mPivot = mDrag == Drag::Orbit ? glm::dvec3(0.0) : mPicker.pivot(event.positionPx, rect);
 }
 
 void ViewportTools::move(const InputEvent& event, const ViewportRect& rect) {

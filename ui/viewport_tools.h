@@ -63,6 +63,8 @@ public:
 private:
     enum class Drag { None, Orbit, Pan, Zoom, Light, Control, Paint, Scribble, Line };
 
+    /// What a button does to the view; None: nothing.
+    [[nodiscard]] static Drag viewDrag(const InputEvent& event);
     [[nodiscard]] bool picks(const InputEvent& event, const ViewportRect& rect, bool overUi) const;
     void press(const InputEvent& event, const ViewportRect& rect);
     void move(const InputEvent& event, const ViewportRect& rect);
