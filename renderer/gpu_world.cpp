@@ -60,7 +60,7 @@ int roundedUp(int count, int unit) {
 }
 
 /// Texture units of include/visible_triangle.glsl.
-enum TriangleUnit : GLuint { kVertexFloatsUnit = 12, kCornerVerticesUnit, kVertexColorsUnit };
+enum TriangleUnit : GLuint { kVertexPairsUnit = 12, kCornerVerticesUnit, kVertexColorsUnit };
 
 } // namespace
 
@@ -155,7 +155,7 @@ bool GpuWorld::canBeRasterized() const {
     }
     const GLint64 most = gl::BufferTexture::greatestSize();
     const GpuMesh& last = mMeshes.back();
-    return (GLint64{last.firstVertex} + last.vertexCount + 1) * kVertexFloats <= most &&
+    return (GLint64{last.firstVertex} + last.vertexCount + 1) * kVertexFloats / 2 <= most &&
            GLint64{last.firstCorner} + 3 * GLint64{last.triangleCount} + 3 <= most;
 }
 
@@ -204,7 +204,7 @@ void GpuWorld::fillBuffers() {
     }
     mVertexArray.setIndexBuffer(mIndices);
     if (mRasterizer == Rasterizer::Processor) {
-        mVertexFloats = gl::BufferTexture("vertices", GL_R32F, mVertices);
+        mVertexPairs = gl::BufferTexture("vertices", GL_RG32F, mVertices);
         mCornerVertices = gl::BufferTexture("indices", GL_R32UI, mIndices);
         if (hasColors) {
             mVertexColors = gl::BufferTexture("vertex colors", GL_RGBA32F, mColors);
@@ -291,7 +291,7 @@ const TriangleRaster& GpuWorld::rasterize(const RasterView& view) const {
 }
 
 void GpuWorld::bindTriangles() const {
-    mVertexFloats.bind(kVertexFloatsUnit);
+    mVertexPairs.bind(kVertexPairsUnit);
     mCornerVertices.bind(kCornerVerticesUnit);
     mVertexColors.bind(kVertexColorsUnit);
 }

@@ -114,7 +114,7 @@ private:
     gl::Buffer mVertices, mIndices; ///< of all meshes
     gl::Buffer mColors;             ///< RGBA of all vertices; none where no mesh has them
     gl::Buffer mPlaces;             ///< see placeOf()
-    gl::BufferTexture mVertexFloats, mCornerVertices, mVertexColors; ///< the same for fetches
+    gl::BufferTexture mVertexPairs, mCornerVertices, mVertexColors; ///< the same for fetches
     gl::VertexArray mVertexArray;
     std::vector<GpuMesh> mMeshes;
     std::unique_ptr<TriangleRaster> mRaster;

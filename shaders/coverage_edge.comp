@@ -52,8 +52,8 @@ void main() {
         if (s.x <= 0.0) {
             continue;
         }
-        vec3 normal = sampleNormal(pixel, i);
         vec3 position = positionAt(vec2(pixel) + 0.5 + jitterAndWeight.xy, s.x);
+        vec3 normal = sampleNormal(pixel, i, directionToEye(position));
         vec4 found = searchAround(pixel, samplePlaces[i] + jitterAndWeight.xy, position, normal, s.y, pixelWidthMm(s.x));
         if (found.a > 0.0) {
             result += vec4(found.rgb / found.a, 1.0);

@@ -48,8 +48,7 @@ void main() {
     if (!seesSurface()) {
         discard;
     }
-    // Both sides are seen: a back face shows the normal that faces the viewer.
-    vec3 n = facingNormal(!frontFacing);
+    vec3 n = seenNormal(directionToEye(surface.position)); // both sides are seen
     float depth = -(frame.view * vec4(surface.position, 1.0)).z;
     outNormal = vec4(n, float(meshInfo.z));
 #ifdef COVERAGE

@@ -58,8 +58,8 @@ vec2 sampleAt(ivec2 pixel, int i) {
 #endif
 }
 
-// Towards the viewer, at the pixel's center; of a sample that shows something.
-vec3 sampleNormal(ivec2 pixel, int i) {
+// Towards the viewer, at the pixel's center; of a sample that shows something. As seenNormal() in surface.glsl.
+vec3 sampleNormal(ivec2 pixel, int i, vec3 toEye) {
 #ifdef VISIBLE_TRIANGLES
     int triangle = int(texelFetch(sampleTriangles, ivec3(pixel, i), 0).r) - 1;
     ivec3 v = verticesOf(triangle, meshPlaces[meshOf(triangle)]);
@@ -68,7 +68,7 @@ vec3 sampleNormal(ivec2 pixel, int i) {
     vec4 weights = weightsAt(cornersInClip(frame.viewProjection, positions), ndc);
     vec3 n = normalsOf(v) * weights.xyz;
     n = dot(n, n) > 1e-12 ? n : cross(positions[1] - positions[0], positions[2] - positions[0]);
-    return n * (inversesqrt(max(dot(n, n), 1e-30)) * (weights.w > 0.0 ? 1.0 : -1.0));
+    return n * (inversesqrt(max(dot(n, n), 1e-30)) * (weights.w > 0.0 || dot(n, toEye) > 0.0 ? 1.0 : -1.0));
 #else
     return texelFetch(sampleNormals, pixel, i).xyz;
 #endif

@@ -55,7 +55,7 @@ void cutOut() {
 #endif
 }
 
-// The shading normal on the side that is seen. A degenerate interpolated normal falls back to the face's.
+// The shading normal, or its opposite. A degenerate interpolated normal falls back to the face's.
 vec3 facingNormal(bool flip) {
     vec3 n = surface.normal;
     float squared = dot(n, n);
@@ -65,4 +65,11 @@ vec3 facingNormal(bool flip) {
     }
     n *= inversesqrt(squared);
     return flip ? -n : n;
+}
+
+// The side of the shading normal that the eye sees: of a back face the other one. Not where the triangle is wound against
+// its neighbors, as slivers of scans are: the normals of its corners face the eye there.
+vec3 seenNormal(vec3 toEye) {
+    vec3 n = facingNormal(false);
+    return frontFacing || dot(n, toEye) > 0.0 ? n : -n;
 }

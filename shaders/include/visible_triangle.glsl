@@ -1,10 +1,10 @@
 // Triangles that the processor found to be seen (renderer/raster), and what they are at a pixel.
 #ifdef VISIBLE_TRIANGLES
-layout(binding = 12) uniform samplerBuffer vertexFloats;
+layout(binding = 12) uniform samplerBuffer vertexPairs;    // position in mm and normal (three pairs), uv, uv1
 layout(binding = 13) uniform usamplerBuffer cornerVertices; // of the mesh's own vertices
 layout(binding = 14) uniform samplerBuffer vertexColors;
 
-const int kVertexFloats = 10; // position in mm, normal, uv, uv1
+const int kVertexPairs = 5;
 
 // Where a mesh is in these buffers.
 struct MeshPlace {
@@ -21,20 +21,14 @@ ivec3 verticesOf(int triangle, MeshPlace place) {
                                      texelFetch(cornerVertices, corner + 2).r);
 }
 
-vec2 vertexVec2(int vertex, int offset) {
-    int at = vertex * kVertexFloats + offset;
-    return vec2(texelFetch(vertexFloats, at).r, texelFetch(vertexFloats, at + 1).r);
-}
+vec2 vertexPair(int vertex, int pair) { return texelFetch(vertexPairs, vertex * kVertexPairs + pair).rg; }
+vec3 vertexPosition(int vertex) { return vec3(vertexPair(vertex, 0), vertexPair(vertex, 1).x); }
+vec3 vertexNormal(int vertex) { return vec3(vertexPair(vertex, 1).y, vertexPair(vertex, 2)); }
 
-vec3 vertexVec3(int vertex, int offset) {
-    return vec3(vertexVec2(vertex, offset), texelFetch(vertexFloats, vertex * kVertexFloats + offset + 2).r);
-}
-
-mat3 positionsOf(ivec3 v) { return mat3(vertexVec3(v.x, 0), vertexVec3(v.y, 0), vertexVec3(v.z, 0)); }
-mat3 normalsOf(ivec3 v) { return mat3(vertexVec3(v.x, 3), vertexVec3(v.y, 3), vertexVec3(v.z, 3)); }
+mat3 positionsOf(ivec3 v) { return mat3(vertexPosition(v.x), vertexPosition(v.y), vertexPosition(v.z)); }
+mat3 normalsOf(ivec3 v) { return mat3(vertexNormal(v.x), vertexNormal(v.y), vertexNormal(v.z)); }
 mat3x2 texturePlacesOf(ivec3 v, int uvSet) {
-    int offset = 6 + 2 * uvSet;
-    return mat3x2(vertexVec2(v.x, offset), vertexVec2(v.y, offset), vertexVec2(v.z, offset));
+    return mat3x2(vertexPair(v.x, 3 + uvSet), vertexPair(v.y, 3 + uvSet), vertexPair(v.z, 3 + uvSet));
 }
 
 // Corners of a triangle in the clip space's x, y, w.

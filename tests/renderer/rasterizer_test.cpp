@@ -178,6 +178,43 @@ TEST_F(RasterizerTest, SameFramesOfCutOutsAndNormalMaps) {
     expectTheSame(world, camera, {test::directionalLight({0.2, -0.3, 1.0})}, "from behind", kRims);
 }
 
+TEST_F(RasterizerTest, TrianglesWoundAgainstTheirNeighborsLookAsThey) {
+    World sphere = makeWorld("builtin:sphere", wax());
+    World scan = sphere;
+    std::vector<std::uint32_t>& indices = scan.meshes[0].mesh.indices;
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3 * 50) {
+        std::swap(indices[i], indices[i + 1]);
+    }
+    const Camera camera = test::defaultCamera(sphere, kSize);
+    for (const Rasterizer rasterizer : {Rasterizer::Driver, Rasterizer::Processor}) {
+        SCOPED_TRACE(static_cast<int>(rasterizer));
+        const FloatImage well = frameBy(rasterizer, sphere, camera, {test::frontLight()}).image;
+        const FloatImage ill = frameBy(rasterizer, scan, camera, {test::frontLight()}).image;
+        const int normal = well.channelIndex("normal.X");
+        float brightest = 0.0f;
+        for (int i = 0; i < kSize.x * kSize.y; ++i) {
+            brightest = std::max(brightest, well.at(i % kSize.x, i / kSize.x, 0));
+        }
+        int seen = 0;
+        for (int i = 0; i < kSize.x * kSize.y; ++i) {
+            const int x = i % kSize.x;
+            const int y = i / kSize.x;
+            if (well.at(x, y, 3) < 1.0f || ill.at(x, y, 3) < 1.0f) {
+                continue;
+            }
+            ++seen;
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_NEAR(ill.at(x, y, normal + c), well.at(x, y, normal + c), 1e-3);
+                // Not black; some is missing, since no light enters where a triangle turns its
+                // back.
+                EXPECT_GT(ill.at(x, y, c), 0.5f * well.at(x, y, c) - 0.02f * brightest)
+                    << x << ' ' << y;
+            }
+        }
+        EXPECT_GT(seen, 2000);
+    }
+}
+
 TEST_F(RasterizerTest, AMovedViewLeavesNothingBehind) {
     // Passes that run only where something is seen must undo what they wrote elsewhere.
     const World world = makeWorld("builtin:vase", wax());
