@@ -9,35 +9,60 @@ Accumulation::Accumulation(const gl::ShaderLibrary& shaders, int materialCount, 
                            const SplattingBuffer& view) {
     std::vector<gl::ShaderDefine> defines = schemeDefines(scheme);
     defines.push_back({"MATERIAL_COUNT", std::to_string(materialCount)});
-    mFarEnergy = gl::Program("far energies", shaders, {"far_energy.comp"}, defines);
+    mFarLight = gl::Program("far light", shaders, {"far_light.comp"}, defines);
+    if (scheme == Scheme::Hierarchical) {
+        mSharpening =
+            gl::Program("far light sharpening", shaders, {"far_light_sharpening.comp"}, defines);
+    }
     mProgram = gl::Program("accumulation", shaders, {"accumulation.comp"}, defines);
     for (int level = 1; level < view.levels(); ++level) {
-        mFarEnergies.push_back(
-            gl::Texture::make2d("far energies", GL_RGBA32F, view.positions().size2d(level)));
+        const glm::ivec2 size = view.positions().size2d(level);
+        Light light;
+        light.asGathered = gl::Texture::make2d("far light", GL_RGBA32F, size);
+        if (mSharpening) {
+            light.sharpened = gl::Texture::make2d("far light, sharpened", GL_RGBA32F, size);
+        }
+        mLights.push_back(std::move(light));
     }
+}
+
+const gl::Texture& Accumulation::findLight(const gl::Texture& exitance, const SplattingBuffer& view,
+                                           int level) const {
+    const Light& light = mLights[static_cast<std::size_t>(level - 1)];
+    mFarLight.use();
+    mFarLight.set(0, level);
+    view.surfaces().bind(0);
+    exitance.bind(1);
+    light.asGathered.bindImage(0, 0, GL_WRITE_ONLY);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    view.dispatchCovered(mFarLight, level);
+    if (!mSharpening) {
+        return light.asGathered;
+    }
+    mSharpening.use();
+    mSharpening.set(0, level);
+    view.positions().bind(0);
+    light.asGathered.bind(1);
+    light.sharpened.bindImage(0, 0, GL_WRITE_ONLY);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    view.dispatchCovered(mSharpening, level);
+    return light.sharpened;
 }
 
 void Accumulation::accumulate(const gl::Texture& exitance, const SplattingBuffer& view,
                               const GpuMaterials& materials) const {
     const gl::DebugGroup group("accumulation");
-    mFarEnergy.set(1, materials.meanRadiusMm());
+    mFarLight.set(1, materials.meanRadiusMm());
     mProgram.set(1, materials.meanRadiusMm());
     materials.bindRangeTable(6);
     for (int level = view.levels() - 2; level >= 0; --level) {
-        const gl::Texture& farEnergies = mFarEnergies[static_cast<std::size_t>(level)];
-        mFarEnergy.use();
-        mFarEnergy.set(0, level + 1);
-        view.surfaces().bind(0);
-        farEnergies.bindImage(0, 0, GL_WRITE_ONLY);
-        view.dispatchCovered(mFarEnergy, level + 1);
-
+        const gl::Texture& farLight = findLight(exitance, view, level + 1);
         mProgram.use();
         mProgram.set(0, level);
         view.positions().bind(0);
         view.normals().bind(1);
         view.surfaces().bind(2);
-        exitance.bind(3);
-        farEnergies.bind(4);
+        farLight.bind(3);
         exitance.bindImage(0, level, GL_READ_WRITE);
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
         view.dispatchCovered(mProgram, level);

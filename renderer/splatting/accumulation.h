@@ -22,8 +22,15 @@ public:
                     const GpuMaterials& materials) const;
 
 private:
-    std::vector<gl::Texture> mFarEnergies; ///< of level 1, 2, …
-    gl::Program mFarEnergy, mProgram;
+    /// Of a level, for the next finer one. The paper's scheme sharpens nothing.
+    struct Light {
+        gl::Texture asGathered, sharpened;
+    };
+    const gl::Texture& findLight(const gl::Texture& exitance, const SplattingBuffer& view,
+                                 int level) const;
+
+    std::vector<Light> mLights; ///< of level 1, 2, …
+    gl::Program mFarLight, mSharpening, mProgram;
 };
 
 } // namespace celadon

@@ -15,3 +15,8 @@ float farRingStart(int k) {
     return meanRadius * minimalRadius(meanRadius / width, 0);
 #endif
 }
+
+// 1 where what comes from beyond a ring changes little from a pixel to the next, such that a polynomial tells it, to 0 where
+// the range is so short that hardly anything comes from there.
+// @param width  a pixel's, mm
+float isFarLightSmooth(float R_P, float width) { return smoothstep(2.5, 5.0, R_P / width); }

@@ -53,6 +53,61 @@ TEST_P(Accuracy, SplattingIsTheImageReference) {
     EXPECT_NEAR(errors.meanRatio, 1.0, test::kSplattingMean);
 }
 
+/// Of pixels beside one where nothing scatters or where the surface jumps away.
+ValueErrors errorsAtRims(const FloatImage& image, const FloatImage& reference, double jumpMm) {
+    FloatImage rims[2];
+    for (FloatImage& row : rims) {
+        row.height = 1;
+        row.channels = {"R", "G", "B"};
+    }
+    const int position = reference.channelIndex("position.X");
+    const auto placeAt = [&](int x, int y) {
+        return glm::dvec3(reference.at(x, y, position), reference.at(x, y, position + 1),
+                          reference.at(x, y, position + 2));
+    };
+    for (int y = 1; y + 1 < reference.height; ++y) {
+        for (int x = 1; x + 1 < reference.width; ++x) {
+            bool isRim = false;
+            for (const glm::ivec2 step : {glm::ivec2(1, 0), {-1, 0}, {0, 1}, {0, -1}}) {
+                isRim = isRim || !test::seesScattering(reference, glm::ivec2(x, y) + step) ||
+                        glm::distance(placeAt(x, y), placeAt(x + step.x, y + step.y)) > jumpMm;
+            }
+            if (!isRim || !test::seesScattering(reference, {x, y})) {
+                continue;
+            }
+            for (int k = 0; k < 2; ++k) {
+                const glm::dvec3 value = test::exitanceAt(k == 0 ? image : reference, {x, y});
+                for (int c = 0; c < 3; ++c) {
+                    rims[k].pixels.push_back(static_cast<float>(value[c]));
+                }
+                ++rims[k].width;
+            }
+        }
+    }
+    return compareValues(rims[0], rims[1]);
+}
+
+using Silhouettes = test::GlTest;
+
+TEST_F(Silhouettes, FarLightFallsOffAlongWhatCurvesAway) {
+    // Nothing lies beyond a rim to interpolate with; the nearest coarse pixels alone are too
+    // bright.
+    constexpr glm::ivec2 kLarge(400, 300);
+    const World world = test::makeWorld("builtin:sphere", test::longRangeMaterial());
+    const Camera camera = test::defaultCamera(world, kLarge);
+    const std::array lights{test::directionalLight({-0.4, -0.5, -0.77})};
+    FrameSettings settings = test::smallFrame(kLarge, 256, Scheme::Hierarchical);
+    const FloatImage image = test::renderFrame(context(), world, settings, camera, lights).image;
+    settings.solver = SolverKind::ImageReference;
+    const FloatImage reference =
+        test::renderFrame(context(), world, settings, camera, lights).image;
+    const ValueErrors errors = errorsAtRims(image, reference, 3.0);
+    fmt::print("[ measured ] rim of a sphere: relative RMSE {:.5f}, mean ratio {:.5f}\n",
+               errors.relativeRmse, errors.meanRatio);
+    EXPECT_LT(errors.relativeRmse, 0.04);
+    EXPECT_NEAR(errors.meanRatio, 1.0, 0.016);
+}
+
 constexpr AccuracyCase kCases[] = {
     {"SphereShort", "builtin:sphere", "short", test::kSplattingShortRmse},
     {"SphereMedium", "builtin:sphere", "medium"},
