@@ -40,11 +40,10 @@ vec4 searchAround(ivec2 pixel, vec2 place, vec3 position, vec3 normal, float mes
 }
 
 void main() {
-    if (gl_GlobalInvocationID.x >= edgeCount) {
+    if (!isListed(listIndex())) {
         return;
     }
-    uint place = edges[gl_GlobalInvocationID.x];
-    ivec2 pixel = ivec2(place % 65536u, place / 65536u);
+    ivec2 pixel = listedPixel(listIndex());
     vec4 own = texelFetch(radiance, pixel, 0);
     vec4 result = vec4(0.0);
     for (int i = 0; i < sampleCount; ++i) {

@@ -28,9 +28,5 @@ void main() {
         }
         return;
     }
-    uint index = atomicAdd(edgeCount, 1u);
-    if (index % kListGroup == 0u) {
-        atomicAdd(groups[0], 1u);
-    }
-    edges[index] = uint(pixel.x) + 65536u * uint(pixel.y);
+    listPixel(pixel);
 }

@@ -53,9 +53,7 @@ Antialiasing::Antialiasing(const gl::ShaderLibrary& shaders, const SplattingBuff
     : mColor(gl::Texture::make2d("color", GL_RGBA32F, view.size())),
       mFrameBlock("jittered frame", sizeof(blocks::FrameBlock), gl::BufferUse::Update),
       mEdges("edge pixels",
-             sizeof(GLuint) * (4 + static_cast<std::size_t>(view.size().x) *
-                                       static_cast<std::size_t>(view.size().y)),
-             gl::BufferUse::Update),
+             static_cast<std::size_t>(view.size().x) * static_cast<std::size_t>(view.size().y)),
       mInterior("coverage inside", shaders, {"coverage_interior.comp"}),
       mEdge("coverage at edges", shaders, {"coverage_edge.comp"}) {
     if (shaders.isDefined("VISIBLE_TRIANGLES")) {
@@ -134,9 +132,7 @@ void Antialiasing::drawSamples(const GpuWorld& world) {
 
 void Antialiasing::resolveDraw(const GpuWorld& world, const SplattingBuffer& view,
                                const gl::Texture& radiance, glm::dvec2 offset) {
-    mEdges.write(std::array<GLuint, 4>{0, 1, 1, 0});
-    mEdges.bindStorage(0);
-    mEdges.bind(GL_DISPATCH_INDIRECT_BUFFER);
+    mEdges.clear();
     view.positions().bind(0);
     view.normals().bind(1);
     radiance.bind(2);
@@ -160,12 +156,8 @@ void Antialiasing::resolveDraw(const GpuWorld& world, const SplattingBuffer& vie
     } else {
         mInterior.dispatchOver(view.size());
     }
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT |
-                    GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-    mEdge.use();
-    glDispatchComputeIndirect(0);
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
-                    GL_BUFFER_UPDATE_BARRIER_BIT);
+    mEdges.dispatch(mEdge);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
 void Antialiasing::resolve(const GpuWorld& world, const Camera& camera, const SplattingBuffer& view,

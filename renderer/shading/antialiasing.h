@@ -5,6 +5,7 @@
 #include "renderer/gl/framebuffer.h"
 #include "renderer/gl/program.h"
 #include "renderer/gpu_world.h"
+#include "renderer/listed_pixels.h"
 #include "renderer/splatting/splatting_buffer.h"
 
 #include <optional>
@@ -53,7 +54,7 @@ private:
     std::vector<glm::vec2> mPlaces; ///< of a draw's samples, from the pixel's center, in pixels
     gl::Framebuffer mSampleFramebuffer;
     gl::Buffer mFrameBlock;
-    gl::Buffer mEdges;   ///< as coverage.glsl has it: a dispatch's groups, a count, and pixels
+    ListedPixels mEdges; ///< pixels at silhouettes
     gl::Program mSample; ///< the driver's
     gl::Program mInterior, mEdge;
 };

@@ -41,7 +41,9 @@ void DirectLight::shade(std::span<const Light> lights, const GpuWorld& world,
                         const Surroundings* around) {
     const gl::DebugGroup group("direct light");
     mRadiance.clear(0, glm::vec4(0.0f));
-    mReach.clear(0, glm::vec4(0.0f));
+    if (around != nullptr) {
+        mReach.clear(0, glm::vec4(0.0f));
+    }
     mLightViews.update(lights, world);
     const std::size_t firstAround = around != nullptr ? around->firstLight : lights.size();
     for (int lightView = 0; lightView < mLightViews.count(); ++lightView) {

@@ -6,7 +6,8 @@
 namespace celadon {
 
 Accumulation::Accumulation(const gl::ShaderLibrary& shaders, int materialCount, Scheme scheme,
-                           const SplattingBuffer& view) {
+                           const SplattingBuffer& view)
+    : mRoughPixels("rough pixels", view.positions().texelCount(0)) {
     std::vector<gl::ShaderDefine> defines = schemeDefines(scheme);
     defines.push_back({"MATERIAL_COUNT", std::to_string(materialCount)});
     mFarLight = gl::Program("far light", shaders, {"far_light.comp"}, defines);
@@ -14,7 +15,8 @@ Accumulation::Accumulation(const gl::ShaderLibrary& shaders, int materialCount, 
         mSharpening =
             gl::Program("far light sharpening", shaders, {"far_light_sharpening.comp"}, defines);
     }
-    mProgram = gl::Program("accumulation", shaders, {"accumulation.comp"}, defines);
+    mSmooth = gl::Program("accumulation", shaders, {"accumulation.comp"}, defines);
+    mRough = gl::Program("accumulation, rough", shaders, {"accumulation_rough.comp"}, defines);
     for (int level = 1; level < view.levels(); ++level) {
         const glm::ivec2 size = view.positions().size2d(level);
         Light light;
@@ -50,22 +52,26 @@ const gl::Texture& Accumulation::findLight(const gl::Texture& exitance, const Sp
 }
 
 void Accumulation::accumulate(const gl::Texture& exitance, const SplattingBuffer& view,
-                              const GpuMaterials& materials) const {
+                              const GpuMaterials& materials) {
     const gl::DebugGroup group("accumulation");
     mFarLight.set(1, materials.meanRadiusMm());
-    mProgram.set(1, materials.meanRadiusMm());
     materials.bindRangeTable(6);
     for (int level = view.levels() - 2; level >= 0; --level) {
         const gl::Texture& farLight = findLight(exitance, view, level + 1);
-        mProgram.use();
-        mProgram.set(0, level);
+        mRoughPixels.clear();
         view.positions().bind(0);
         view.normals().bind(1);
         view.surfaces().bind(2);
         farLight.bind(3);
         exitance.bindImage(0, level, GL_READ_WRITE);
+        for (const gl::Program* const program : {&mSmooth, &mRough}) {
+            program->set(0, level);
+            program->set(1, materials.meanRadiusMm());
+        }
+        mSmooth.use();
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-        view.dispatchCovered(mProgram, level);
+        view.dispatchCovered(mSmooth, level);
+        mRoughPixels.dispatch(mRough);
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }

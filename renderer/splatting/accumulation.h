@@ -2,6 +2,7 @@
 
 #include "renderer/gl/program.h"
 #include "renderer/gpu_materials.h"
+#include "renderer/listed_pixels.h"
 #include "renderer/splatting/splatting_buffer.h"
 #include "renderer/splatting/splatting_settings.h"
 
@@ -19,7 +20,7 @@ public:
     /// The frame, bounds, material and solve blocks are bound.
     /// @param exitance B of every level
     void accumulate(const gl::Texture& exitance, const SplattingBuffer& view,
-                    const GpuMaterials& materials) const;
+                    const GpuMaterials& materials);
 
 private:
     /// Of a level, for the next finer one. The paper's scheme sharpens nothing.
@@ -30,7 +31,8 @@ private:
                                  int level) const;
 
     std::vector<Light> mLights; ///< of level 1, 2, …
-    gl::Program mFarLight, mSharpening, mProgram;
+    ListedPixels mRoughPixels;  ///< of one level
+    gl::Program mFarLight, mSharpening, mSmooth, mRough;
 };
 
 } // namespace celadon

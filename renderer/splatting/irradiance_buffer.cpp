@@ -43,7 +43,7 @@ void IrradianceBuffer::draw(const GpuWorld& world) {
     state.depthWrite = true;
     state.depthClamp = true;
     state.apply();
-    for (int i = 0; i < kTargets; ++i) {
+    for (const int i : {0, 2, 3}) { // whoever reads the others asks one of these first
         mFramebuffer.clearColor(i, i == 3 ? glm::vec4(0.0f, 0.0f, -1.0f, 0.0f) : glm::vec4(0.0f));
     }
     mFramebuffer.clearDepth(0.0f);

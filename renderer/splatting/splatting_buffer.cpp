@@ -74,9 +74,9 @@ const TriangleRaster* SplattingBuffer::draw(const GpuWorld& world, const CameraV
     state.viewport = glm::ivec4(0, 0, mSize); // the padding stays background
     state.depthWrite = true;
     state.apply();
-    for (int i = 0; i < kTargets; ++i) {
-        mFramebuffer.clearColor(i, i == 2 ? glm::vec4(0.0f, 0.0f, -1.0f, 0.0f) : glm::vec4(0.0f));
-    }
+    // Whoever reads the others asks one of these first.
+    mFramebuffer.clearColor(0, glm::vec4(0.0f));
+    mFramebuffer.clearColor(2, glm::vec4(0.0f, 0.0f, -1.0f, 0.0f));
     mFramebuffer.clearDepth(0.0f);
     const TriangleRaster* const seen = mDraw.draw(world, state, mDepth, morePlaces);
     if (seen != nullptr) {

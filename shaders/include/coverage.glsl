@@ -1,5 +1,6 @@
 #include "include/frame.glsl"
 #include "include/bounds.glsl"
+#include "include/listed_pixels.glsl"
 #include "include/visible_triangle.glsl"
 
 // What the two passes of antialiasing share: a pixel's center, and the samples of one draw about it.
@@ -75,10 +76,3 @@ vec3 sampleNormal(ivec2 pixel, int i, vec3 toEye) {
 }
 
 const float slanting = 0.25; // cosine of normal and view below which a pixel center stands for little
-
-// Pixels that the first pass leaves to the second, and their groups of kListGroup.
-layout(std430, binding = 0) restrict buffer Edges {
-    uint groups[3];
-    uint edgeCount;
-    uint edges[]; // x + 65536 y
-};
