@@ -2,6 +2,7 @@
 
 #include "renderer/gather/pair_kernel.h"
 
+#include <glm/geometric.hpp>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
@@ -25,6 +26,14 @@ class SquareSorter {
         glm::vec3 place;
         std::uint32_t pixel;
     };
+    struct Steps {
+        glm::vec3 sum{0.0f};
+        float squares = 0.0f;
+        void add(glm::vec3 step) {
+            sum += step;
+            squares += glm::dot(step, step);
+        }
+    };
 
 public:
     SquareSorter(const ViewTexels& texels, std::size_t tilesOfBlock)
@@ -32,7 +41,11 @@ public:
 
     Square sort(glm::ivec2 corner) {
         collect(corner);
-        order(mItems);
+        if (isFlat()) {
+            orderFlat();
+        } else {
+            order(mItems);
+        }
         Square square;
         PointBounds bounds;
         for (std::size_t i = 0; i < mItems.size(); ++i) {
@@ -66,6 +79,42 @@ private:
         }
     }
 
+    /// Whether a whole square is seen, of a surface that neither jumps nor is very slanted: its
+    /// steps from pixel to pixel go one way. The screen's order is as compact then.
+    [[nodiscard]] bool isFlat() const {
+        constexpr std::size_t kSide = kSquare;
+        constexpr float kHalfOfSteps = 0.5f * float(kSide * (kSide - 1));
+        if (mItems.size() != kSide * kSide) {
+            return false;
+        }
+        Steps right, up;
+        for (std::size_t i = 0; i < mItems.size(); ++i) {
+            if (i % kSide + 1 < kSide) {
+                right.add(mItems[i + 1].place - mItems[i].place);
+            }
+            if (i + kSide < mItems.size()) {
+                up.add(mItems[i + kSide].place - mItems[i].place);
+            }
+        }
+        const auto goOneWay = [](const Steps& steps) {
+            return glm::dot(steps.sum, steps.sum) > kHalfOfSteps * steps.squares;
+        };
+        return goOneWay(right) && goOneWay(up) && right.squares < 4.0f * up.squares &&
+               up.squares < 4.0f * right.squares;
+    }
+
+    /// Tiles of 8 x 8 pixels, row by row of vectors of 4 x 2.
+    void orderFlat() {
+        mOrdered.clear();
+        for (int i = 0; i < kSquare * kSquare; ++i) {
+            const int tile = i / 64, vector = i / 8 % 8, lane = i % 8;
+            const int x = tile % 4 * 8 + vector % 2 * 4 + lane % 4;
+            const int y = tile / 4 * 8 + vector / 2 * 2 + lane / 4;
+            mOrdered.push_back(mItems[static_cast<std::size_t>(y * kSquare + x)]);
+        }
+        mItems.swap(mOrdered);
+    }
+
     /// Halves of halves along the longest axis, of whole tiles and then of whole vectors, so that
     /// both are compact.
     void order(std::span<Item> items) {
@@ -91,7 +140,7 @@ private:
 
     const ViewTexels& mTexels;
     std::size_t mTilesOfBlock;
-    std::vector<Item> mItems;
+    std::vector<Item> mItems, mOrdered;
 };
 
 } // namespace

@@ -94,6 +94,25 @@ TEST(PixelTiles, FewTilesHoldNearAndFar) {
     EXPECT_GT(count, 8 * mixed);
 }
 
+TEST(PixelTiles, TilesOfPlanesAreCompact) {
+    // Seen from the front, and so slantingly that a row's pixels are eight times as far apart.
+    for (const float stretch : {1.0f, 8.0f}) {
+        Picture picture({64, 64});
+        for (int y = 0; y < 64; ++y) {
+            for (int x = 0; x < 64; ++x) {
+                picture.set(x, y, {stretch * static_cast<float>(x), y, 0.0f});
+            }
+        }
+        const PixelTiles tiles = picture.tiles(0);
+        for (std::size_t i = 0; i < tiles.endTile(tiles.blocks() - 1); ++i) {
+            const glm::vec3 extent = tiles.bounds(i).high - tiles.bounds(i).low;
+            EXPECT_EQ(tiles.tile(i).size(), 64u);
+            EXPECT_EQ(extent.x, stretch == 1.0f ? 7.0f : 24.0f);
+            EXPECT_EQ(extent.y, stretch == 1.0f ? 7.0f : 15.0f);
+        }
+    }
+}
+
 TEST(PixelTiles, NothingHasNoBlocks) {
     EXPECT_EQ(PixelTiles().blocks(), 0u);
     EXPECT_EQ(Picture({40, 40}).tiles(0).blocks(), 0u);
