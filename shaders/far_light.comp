@@ -19,7 +19,9 @@ void main() {
     }
     vec4 s = texelFetch(surfaces, pixel, level);
     if (s.z >= 0.0) {
-        vec3 energy = logFarEnergy(int(s.z), s.xy, farRingStart(level));
+        // A ten-thousandth of all the material's energy at least: less than that is nothing that a neighbor of another
+        // range could be told by.
+        vec3 energy = max(logFarEnergy(int(s.z), s.xy, farRingStart(level)), logFarEnergy(int(s.z), s.xy, 0.0) - 9.0);
         imageStore(farLight, pixel, vec4(texelFetch(exitances, pixel, level).rgb * exp(-energy), s.w));
     }
 }
