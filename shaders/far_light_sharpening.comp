@@ -29,8 +29,8 @@ vec3 secondDifference(ivec2 pixel, ivec2 axis, vec4 light, vec3 position) {
     }
     vec4 a = texelFetch(farLight, before, 0);
     vec4 b = texelFetch(farLight, after, 0);
-    float change = max(abs(a.a - light.a), abs(b.a - light.a));
-    return exp(-8.0 * change / bounds.scattering.w) * (a.rgb + b.rgb - 2.0 * light.rgb);
+    float alike = min(similarity(light.a, a.a), similarity(light.a, b.a));
+    return alike * (a.rgb + b.rgb - 2.0 * light.rgb);
 }
 
 void main() {

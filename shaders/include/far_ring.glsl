@@ -20,3 +20,6 @@ float farRingStart(int k) {
 // the range is so short that hardly anything comes from there.
 // @param width  a pixel's, mm
 float isFarLightSmooth(float R_P, float width) { return smoothstep(2.5, 5.0, R_P / width); }
+
+// How alike two materials are.
+float similarity(float R_P, float other) { return exp(-8.0 * abs(R_P - other) / bounds.scattering.w); }

@@ -36,9 +36,6 @@ vec4 positionAbout(ivec2 neighbor) {
     return isInside ? texelFetch(positions, neighbor, level + 1) : vec4(0.0);
 }
 
-// How alike two materials are.
-float similarity(float R_P, float other) { return exp(-8.0 * abs(R_P - other) / bounds.scattering.w); }
-
 // The four pixels of level k + 1 about a pixel, and their weights.
 ivec2 baseOf(ivec2 pixel) { return (pixel + 1) / 2 - 1; }
 ivec2 corner(int i) { return ivec2(i & 1, i >> 1); }
