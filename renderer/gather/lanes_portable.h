@@ -120,6 +120,17 @@ struct Lanes {
         }
         return e;
     }
+    /// Codes of kRunKnots neighboring knots, of each lane's profile.
+    struct Run {
+        Float code[kRunKnots][3];
+    };
+    static Run run(const std::uint16_t* codes, const std::int32_t* index) {
+        return turned([&](int i, int k) { return codes[index[i] + k]; });
+    }
+    static Run meanRun(const std::uint16_t* a, const std::int32_t* indexA, const std::uint16_t* b,
+                       const std::int32_t* indexB) {
+        return turned([&](int i, int k) { return (a[indexA[i] + k] + b[indexB[i] + k] + 1) >> 1; });
+    }
     /// Adds a color to the sums of each lane's pixel; lanes may share one.
     static void addColors(float (*sums)[4], const std::int32_t* pixel, const Float* color) {
         for (int i = 0; i < kCount; ++i) {
@@ -127,6 +138,20 @@ struct Lanes {
                 sums[pixel[i]][c] += color[c][i];
             }
         }
+    }
+
+private:
+    template<class Code>
+    static Run turned(const Code& code) {
+        Run run;
+        for (int i = 0; i < kCount; ++i) {
+            for (int k = 0; k < kRunKnots; ++k) {
+                for (int c = 0; c < 3; ++c) {
+                    run.code[k][c][i] = static_cast<float>(code(i, k * kKnotCodes + c));
+                }
+            }
+        }
+        return run;
     }
 };
 

@@ -130,6 +130,21 @@ void SampleTree::setRadii(Mean& mean, const Radii& radii) {
     std::copy_n(radii.kept, 3, mean.kept);
 }
 
+/// Where the codes of each profile of the first levels are to stand.
+void SampleTree::placeProfiles(std::size_t levels) {
+    std::size_t end = 0;
+    for (std::size_t k = 0; k < levels; ++k) {
+        std::vector<gather::Sample>& samples = mLevels[k].samples;
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            samples[i].profile = static_cast<std::uint32_t>(end);
+            const int knots = k == 0 ? mMaterials->map(mMeans[0][i].material).knots()
+                                     : mMaterials->commonKnots().segments + 1;
+            end += static_cast<std::size_t>(gather::kKnotCodes * knots);
+        }
+    }
+    mCodes.resize(end + gather::kCodesBehind);
+}
+
 void SampleTree::makeProfiles(const LightTexels& texels, std::size_t level,
                               const SampleTree* before, const ChangedTexels& changed) {
     Level& here = mLevels[level];
@@ -138,25 +153,16 @@ void SampleTree::makeProfiles(const LightTexels& texels, std::size_t level,
     const int values = gather::kKnotCodes * (common.segments + 1);
     const bool needsRoots = level + 1 < static_cast<std::size_t>(mSettings.levels);
 
-    // Every profile's place first, then all of them in parallel.
-    std::size_t end = mCodes.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        here.samples[i].profile = static_cast<std::uint32_t>(end);
-        end += static_cast<std::size_t>(
-            level == 0 ? gather::kKnotCodes * mMaterials->map(mMeans[0][i].material).knots()
-                       : values);
-    }
-    mCodes.resize(end);
     mRoots[level].resize(needsRoots || level > 0 ? count * static_cast<std::size_t>(values) : 0);
     mRadii[level].resize(level > 0 ? count : 0);
     mIsNew[level].resize(count);
     // Roots and radii of what is not new stand where they were made; codes are the other tree's.
     const auto keep = [&](std::size_t i) {
         const std::size_t first = here.samples[i].profile;
-        const std::size_t last = i + 1 < count ? here.samples[i + 1].profile : end;
-        std::copy(before->mCodes.begin() + static_cast<std::ptrdiff_t>(first),
-                  before->mCodes.begin() + static_cast<std::ptrdiff_t>(last),
-                  mCodes.begin() + static_cast<std::ptrdiff_t>(first));
+        const int knots =
+            level == 0 ? mMaterials->map(mMeans[0][i].material).knots() : common.segments + 1;
+        std::copy_n(before->mCodes.data() + first,
+                    gather::kKnotCodes * static_cast<std::size_t>(knots), mCodes.data() + first);
     };
 
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 128), [&](const auto& range) {

@@ -13,6 +13,9 @@ inline constexpr int kTilePixels = 64;
 inline constexpr float kRingLow = 0.8f;
 inline constexpr float kRingHigh = 1.2f;
 inline constexpr int kKnotCodes = 4; ///< codes of a knot: R, G, B, one unused
+inline constexpr int kRunKnots = 4;  ///< neighboring knots that are read at once
+/// Runs begin within a profile and may end behind it; what stands there is read and not used.
+inline constexpr int kCodesBehind = kRunKnots * kKnotCodes;
 
 /// Profiles as 16-bit codes: ln P = offset + step * code, so that
 /// log2 sqrt(P_i P_o) = exponentOffset + exponentStep * (code_i + code_o).
@@ -55,7 +58,8 @@ struct Candidate {
 struct Tile {
     alignas(64) float x[kTilePixels], y[kTilePixels], z[kTilePixels];
     alignas(64) float perMm[kTilePixels], rangeMm[kTilePixels], lastSegment[kTilePixels];
-    /// Codes of the pixels' profiles: [kTilePixels][profileStride]. Null where Solve::one.
+    /// Codes of the pixels' profiles: [kTilePixels][profileStride], and kCodesBehind more. Null
+    /// where all profiles are one.
     const std::uint16_t* profiles;
     int profileStride;
     alignas(64) float sums[kTilePixels][4]; ///< added to
@@ -70,7 +74,7 @@ enum class Profiles : std::uint8_t {
 
 struct Solve {
     CodeScale scale;
-    const std::uint16_t* codes; ///< of all samples
+    const std::uint16_t* codes; ///< of all samples, and kCodesBehind more
     Profiles profiles;
     bool hierarchical;
     float fade; ///< b

@@ -15,7 +15,6 @@
 namespace celadon::gather {
 namespace {
 
-
 /// Below these a disc is small, and one distance with its second order does.
 constexpr float kNarrowAngle = 0.1f;
 constexpr float kNarrowChange = 0.4f;
@@ -279,71 +278,130 @@ private:
         mPairs.drain(all, [&](int i) { computePairs(i); });
     }
 
-    /// The middle distance first. For a disc that is small beside its distance the rest is of
-    /// second order, q / 4 (f'' - f' / r): for f = e^(-s r) that is q / 4 s (s + 1 / r), for f =
-    /// r^-n twice the second term. Profiles lie between the two.
+    /// Of pairs: their patches as discs of radius sqrt(2) blur at the distance closest.
+    struct Discs {
+        PairIndices pairs;
+        PairKnots knots;
+        Float blurSquared, blur, closest;
+        Float middle, r; ///< of the distances a disc is at, squared and not
+    };
+
     void computePairs(int i) {
-        const PairIndices pairs = mPairs.indices(i);
-        const PairKnots knots = knotsOf(mPairs, kPairColumns, i);
         const Float closestSquared = mPairs.at(kClosestSquared, i);
         const Float q = mPairs.at(kBlurSquared, i);
-        const Float closest = L::sqrt(closestSquared);
-        const Float blur = L::sqrt(q);
         const Float middle = closestSquared + L::set(0.98f) * q;
-        const Float r = L::sqrt(middle);
-        Float kernel[3];
-        Float slopes[3];
-        mProfiles.at(pairs, knots, r, kernel, slopes);
-        Float change = L::set(0.0f); // of the kernel's logarithm over the blur, steepest channel
-        for (int c = 0; c < 3; ++c) {
-            change = L::maximum(change, slopes[c] * blur);
-        }
-        const Mask narrow = L::both(L::less(blur, L::set(kNarrowAngle) * closest),
-                                    L::less(change, L::set(kNarrowChange)));
-        if (any(narrow)) {
-            const Float perR = L::set(1.5f) / L::maximum(r, L::set(1e-6f));
-            Float color[3];
-            for (int c = 0; c < 3; ++c) {
-                const Float secondOrder = L::set(0.25f) * q * slopes[c] * (slopes[c] + perR);
-                color[c] = L::select(
-                    narrow, mPairs.at(kWeight + c, i) * kernel[c] * (L::set(1.0f) + secondOrder),
-                    L::set(0.0f));
-            }
-            L::addColors(mTile.sums, pairs.pixel, color);
-        }
-        const Mask rest = L::without(L::less(L::set(-1.0f), r), narrow);
-        if (!any(rest)) {
-            return;
-        }
-        // Near zero a profile is steeper than at r: what the disc can reach counts.
-        const Float nearest = (closest - L::set(1.41421356f) * blur) * knots.perMm;
-        change = L::select(L::less(nearest, L::set(1.0f)),
-                           L::maximum(change, mPairs.at(kSteepness, i) * blur), change);
-        const Mask wide = L::both(
-            rest, L::both(L::less(closest, L::set(4.0f) * blur), L::less(L::set(1.0f), change)));
-        const Mask gentle = L::without(rest, wide);
-        if (any(gentle)) {
-            appendGentle(gentle, pairs, knots, i, middle, L::set(1.7320508f) * blur * closest,
-                         kernel);
-        }
-        if (any(wide)) {
-            const Mask steep = L::both(wide, L::less(L::set(4.0f), change));
-            appendWide<4, 8>(mWide, L::without(wide, steep), pairs, knots, i, closest, blur);
-            appendWide<6, 10>(mSteep, steep, pairs, knots, i, closest, blur);
+        const Discs discs{mPairs.indices(i), knotsOf(mPairs, kPairColumns, i), q,
+                          L::sqrt(q),        L::sqrt(closestSquared),          middle,
+                          L::sqrt(middle)};
+        if (any(L::without(all(), isSmall(discs)))) {
+            computeDiscs(i, discs);
+        } else {
+            computeSmallDiscs(i, discs);
         }
     }
 
-    void appendGentle(Mask where, const PairIndices& pairs, const PairKnots& knots, int i,
-                      Float middle, Float step, const Float* kernel) {
+    /// Of the kernel's logarithm over the blur, steepest channel.
+    static Float changeOf(const Float* slopes, Float blur) {
+        const Float steepest = L::maximum(L::maximum(slopes[0], slopes[1]), slopes[2]);
+        return L::maximum(steepest * blur, L::set(0.0f));
+    }
+
+    /// A disc that is small beside its distance takes one distance, and the rest is of second
+    /// order, q / 4 (f'' - f' / r): for f = e^(-s r) that is q / 4 s (s + 1 / r), for f = r^-n
+    /// twice the second term. Profiles lie between the two.
+    struct NarrowDiscs {
+        Mask where;
+        Float color[3];
+    };
+    [[nodiscard]] NarrowDiscs narrowOf(int i, const Discs& discs, const Float* kernel,
+                                       const Float* slopes) const {
+        NarrowDiscs narrow;
+        narrow.where =
+            L::both(isSmall(discs), L::less(changeOf(slopes, discs.blur), L::set(kNarrowChange)));
+        const Float perR = L::set(1.5f) / L::maximum(discs.r, L::set(1e-6f));
+        for (int c = 0; c < 3; ++c) {
+            const Float secondOrder =
+                L::set(0.25f) * discs.blurSquared * slopes[c] * (slopes[c] + perR);
+            narrow.color[c] = L::select(
+                narrow.where, mPairs.at(kWeight + c, i) * kernel[c] * (L::set(1.0f) + secondOrder),
+                L::set(0.0f));
+        }
+        return narrow;
+    }
+
+    static Mask all() { return L::atMost(L::set(0.0f), L::set(0.0f)); }
+    static Mask isSmall(const Discs& discs) {
+        return L::less(discs.blur, L::set(kNarrowAngle) * discs.closest);
+    }
+
+    void computeSmallDiscs(int i, const Discs& discs) {
+        Float kernel[3];
+        Float slopes[3];
+        mProfiles.at(discs.pairs, discs.knots, discs.r, kernel, slopes);
+        const NarrowDiscs narrow = narrowOf(i, discs, kernel, slopes);
+        L::addColors(mTile.sums, discs.pairs.pixel, narrow.color);
+        appendGentle(L::without(isSmall(discs), narrow.where), i, discs, kernel);
+    }
+
+    /// Others take three distances, nearly always between the knots of one run, and more where they
+    /// are wide for the profile.
+    void computeDiscs(int i, const Discs& discs) {
+        const Float blur = discs.blur;
+        const typename PairProfiles<kProfiles>::Run run =
+            mProfiles.runAbout(discs.pairs, discs.knots, discs.r);
+        Float kernel[3];
+        Float slopes[3];
+        run.at(discs.r, kernel);
+        run.slopes(discs.r, slopes);
+        const NarrowDiscs narrow = narrowOf(i, discs, kernel, slopes);
+        // Near zero a profile is steeper than at r: what the disc can reach counts.
+        const Float change = changeOf(slopes, blur);
+        const Float nearest = (discs.closest - L::set(1.41421356f) * blur) * discs.knots.perMm;
+        const Float greatest =
+            L::select(L::less(nearest, L::set(1.0f)),
+                      L::maximum(change, mPairs.at(kSteepness, i) * blur), change);
+        const Mask wide =
+            L::both(L::less(discs.closest, L::set(4.0f) * blur), L::less(L::set(1.0f), greatest));
+        const Mask gentle = L::without(L::without(all(), wide), narrow.where);
+        const Float step = stepOf(discs);
+        const Float low = L::sqrt(L::maximum(discs.middle - step, L::set(0.0f)));
+        const Float high = L::sqrt(discs.middle + step);
+        const Mask covered = L::both(gentle, run.covers(low, high));
+        Float nearer[3];
+        Float farther[3];
+        run.at(low, nearer);
+        run.at(high, farther);
+        Float color[3];
+        for (int c = 0; c < 3; ++c) {
+            const Float third = L::set(1.0f / 3.0f) * mPairs.at(kWeight + c, i);
+            color[c] =
+                L::select(covered, third * (nearer[c] + kernel[c] + farther[c]), narrow.color[c]);
+        }
+        L::addColors(mTile.sums, discs.pairs.pixel, color);
+        appendGentle(L::without(gentle, covered), i, discs, kernel);
+        const Mask steep = L::both(wide, L::less(L::set(4.0f), greatest));
+        appendWide<4, 8>(mWide, L::without(wide, steep), i, discs);
+        appendWide<6, 10>(mSteep, steep, i, discs);
+    }
+
+    /// Squared distances of three that stand for a disc: the middle one, and so much less and more.
+    static Float stepOf(const Discs& discs) {
+        return L::set(1.7320508f) * discs.blur * discs.closest;
+    }
+
+    void appendGentle(Mask where, int i, const Discs& discs, const Float* kernel) {
+        if (!any(where)) {
+            return;
+        }
         Float values[kGentleColumns + kKnotColumns];
-        values[kMiddle] = middle;
-        values[kStep] = step;
+        values[kMiddle] = discs.middle;
+        values[kStep] = stepOf(discs);
         for (int c = 0; c < 3; ++c) {
             values[kThird + c] = L::set(1.0f / 3.0f) * mPairs.at(kWeight + c, i);
             values[kSum + c] = values[kThird + c] * kernel[c];
         }
-        putKnots(values + kGentleColumns, knots);
-        mGentle.append(where, values, pairs);
+        putKnots(values + kGentleColumns, discs.knots);
+        mGentle.append(where, values, discs.pairs);
         if (mGentle.size >= Gentle::kFull) {
             drainGentle(false);
         }
@@ -367,19 +425,18 @@ private:
     }
 
     template<int Inner, int Outer>
-    void appendWide(Wide& queue, Mask where, const PairIndices& pairs, const PairKnots& knots,
-                    int i, Float closest, Float blur) {
+    void appendWide(Wide& queue, Mask where, int i, const Discs& discs) {
         if (!any(where)) {
             return;
         }
         Float values[kWideColumns + kKnotColumns];
-        values[kCenter] = closest;
-        values[kBlur] = blur;
+        values[kCenter] = discs.closest;
+        values[kBlur] = discs.blur;
         for (int c = 0; c < 3; ++c) {
             values[kWideWeight + c] = mPairs.at(kWeight + c, i);
         }
-        putKnots(values + kWideColumns, knots);
-        queue.append(where, values, pairs);
+        putKnots(values + kWideColumns, discs.knots);
+        queue.append(where, values, discs.pairs);
         if (queue.size >= Wide::kFull) {
             drainWide<Inner, Outer>(queue, false);
         }

@@ -41,18 +41,18 @@ void SampleTree::build(const LightTexels& texels, const GatherMaterials& materia
     for (std::size_t k = 1; k < levels; ++k) {
         makeParents(k);
     }
-    mCodes.clear();
-    if (materials.isHomogeneous()) {
-        mCodes.resize(materials.largestProfile());
-        materials.encode(0, {0.5f, 0.5f}, mCodes.data());
-    }
-    const std::size_t used =
-        std::min<std::size_t>(levels, static_cast<std::size_t>(settings.levels));
     if (before != nullptr && before->mMorton != mMorton) {
         before = nullptr;
     }
-    for (std::size_t k = 0; k < used && !materials.isHomogeneous(); ++k) {
-        makeProfiles(texels, k, before, changed);
+    if (materials.isHomogeneous()) {
+        mCodes.resize(materials.largestProfile() + gather::kCodesBehind);
+        materials.encode(0, {0.5f, 0.5f}, mCodes.data());
+    } else {
+        const auto used = std::min(levels, static_cast<std::size_t>(settings.levels));
+        placeProfiles(used);
+        for (std::size_t k = 0; k < used; ++k) {
+            makeProfiles(texels, k, before, changed);
+        }
     }
     measureDepths(texels);
     for (std::size_t k = 0; k < levels; ++k) {

@@ -137,6 +137,7 @@ private:
 
     void makeLeaves(const LightTexels& texels);
     void makeParents(std::size_t level);
+    void placeProfiles(std::size_t levels);
     void makeProfiles(const LightTexels& texels, std::size_t level, const SampleTree* before,
                       const ChangedTexels& changed);
     void measureDepths(const LightTexels& texels);
@@ -156,7 +157,7 @@ private:
     std::vector<std::vector<Radii>> mRadii; ///< above level 0
     std::vector<std::vector<std::uint8_t>> mIsNew; ///< whether a node's profile is not before's
     std::vector<std::vector<std::array<float, 2>>> mDepths; ///< dense: least and greatest, 2^k
-    std::vector<std::uint16_t> mCodes;
+    std::vector<std::uint16_t> mCodes; ///< of all profiles, and gather::kCodesBehind more
 };
 
 } // namespace celadon

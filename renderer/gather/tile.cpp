@@ -6,7 +6,9 @@ namespace celadon {
 
 TileLoader::TileLoader(const GatherMaterials& materials)
     : mMaterials(materials),
-      mCodes(materials.isHomogeneous() ? 0 : gather::kTilePixels * materials.largestProfile()) {
+      mCodes(materials.isHomogeneous()
+                 ? 0
+                 : gather::kTilePixels * materials.largestProfile() + gather::kCodesBehind) {
     tile.profiles = mCodes.empty() ? nullptr : mCodes.data();
     tile.profileStride = static_cast<int>(materials.largestProfile());
 }

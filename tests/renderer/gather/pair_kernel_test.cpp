@@ -52,6 +52,7 @@ struct CodedProfiles {
                 }
             }
         }
+        codes.resize(codes.size() + kCodesBehind);
     }
     [[nodiscard]] int stride() const { return kKnotCodes * (knots.segments + 1); }
     [[nodiscard]] std::uint32_t start(int p) const {
@@ -91,6 +92,7 @@ TileCase makeSetup(const CodedProfiles& profiles, bool shared, float spread, uns
         const auto* first = profiles.codes.data() + profiles.start(i % 4);
         setup.pixelCodes.insert(setup.pixelCodes.end(), first, first + profiles.stride());
     }
+    setup.pixelCodes.resize(setup.pixelCodes.size() + kCodesBehind);
     setup.tile.profiles = shared ? nullptr : setup.pixelCodes.data();
     for (int i = 0; i < 40; ++i) {
         Sample sample;
