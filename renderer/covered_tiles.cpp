@@ -30,10 +30,8 @@ CoveredTiles::CoveredTiles(glm::ivec2 size, int levels) {
         level.tiles = (size + kTilePx - 1) / kTilePx;
         const auto count = static_cast<std::size_t>(level.tiles.x * level.tiles.y);
         level.covered.resize(count);
-        level.touched.resize(count, true); // nobody wrote the background yet
-        const std::size_t bytes = count * sizeof(std::uint32_t);
-        level.coveredList = gl::Buffer("covered tiles", bytes, gl::BufferUse::Update);
-        level.touchedList = gl::Buffer("touched tiles", bytes, gl::BufferUse::Update);
+        level.list =
+            gl::Buffer("covered tiles", count * sizeof(std::uint32_t), gl::BufferUse::Update);
         mLevels.push_back(std::move(level));
         size = (size + 1) / 2;
     }
@@ -73,15 +71,26 @@ void CoveredTiles::find(std::span<const std::uint32_t> triangles, glm::ivec2 siz
         }
     }
     for (Level& level : mLevels) {
-        for (std::size_t i = 0; i < level.covered.size(); ++i) {
-            level.touched[i] = level.touched[i] || level.covered[i];
-        }
-        level.coveredCount = list(level.covered, level.tiles, level.coveredList);
-        level.touchedCount = list(level.touched, level.tiles, level.touchedList);
+        level.count = write(level.covered, level.tiles, level.list);
     }
 }
 
-int CoveredTiles::list(const std::vector<bool>& mask, glm::ivec2 tiles, gl::Buffer& buffer) {
+glm::ivec4 CoveredTiles::bounds() const {
+    const Level& first = mLevels.front();
+    glm::ivec2 low = first.tiles;
+    glm::ivec2 high(-1);
+    for (int y = 0; y < first.tiles.y; ++y) {
+        for (int x = 0; x < first.tiles.x; ++x) {
+            if (first.covered[indexOf({x, y}, first.tiles)]) {
+                low = glm::min(low, glm::ivec2(x, y));
+                high = glm::max(high, glm::ivec2(x, y));
+            }
+        }
+    }
+    return high.x < 0 ? glm::ivec4(0) : kTilePx * glm::ivec4(low, high - low + 1);
+}
+
+int CoveredTiles::write(const std::vector<bool>& mask, glm::ivec2 tiles, gl::Buffer& list) {
     std::vector<std::uint32_t> result;
     for (int y = 0; y < tiles.y; ++y) {
         for (int x = 0; x < tiles.x; ++x) {
@@ -91,24 +100,27 @@ int CoveredTiles::list(const std::vector<bool>& mask, glm::ivec2 tiles, gl::Buff
             }
         }
     }
-    buffer.write(result);
+    list.write(result);
     return static_cast<int>(result.size());
 }
 
 void CoveredTiles::dispatch(const gl::Program& program, int level) const {
     const Level& tiles = mLevels[static_cast<std::size_t>(level)];
-    dispatchList(program, tiles.coveredList, tiles.coveredCount);
+    dispatchList(program, tiles.list, tiles.count);
 }
 
-void CoveredTiles::dispatchTouched(const gl::Program& program, int level) const {
-    const Level& tiles = mLevels[static_cast<std::size_t>(level)];
-    dispatchList(program, tiles.touchedList, tiles.touchedCount);
-}
-
-void CoveredTiles::touchedDone() {
-    for (Level& level : mLevels) {
-        level.touched = level.covered;
+void TouchedTiles::dispatch(const gl::Program& program, const CoveredTiles& tiles, int level) {
+    const CoveredTiles::Level& now = tiles.mLevels[static_cast<std::size_t>(level)];
+    if (mCovered.size() != now.covered.size()) {
+        mCovered.assign(now.covered.size(), true); // nobody wrote the background yet
+        mList = gl::Buffer("touched tiles", mCovered.size() * sizeof(std::uint32_t),
+                           gl::BufferUse::Update);
     }
+    for (std::size_t i = 0; i < mCovered.size(); ++i) {
+        mCovered[i] = mCovered[i] || now.covered[i];
+    }
+    dispatchList(program, mList, CoveredTiles::write(mCovered, now.tiles, mList));
+    mCovered = now.covered;
 }
 
 } // namespace celadon

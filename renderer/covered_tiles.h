@@ -4,6 +4,7 @@
 #include "renderer/gl/program.h"
 
 #include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 
 #include <cstdint>
 #include <span>
@@ -30,21 +31,32 @@ public:
     /// A group of the program, which is in use, for each tile.
     void dispatch(const gl::Program& program, int level) const;
 
-    /// The same for tiles where something is seen or was since touchedDone(): what a pass has to
-    /// write that leaves a background of its own.
-    void dispatchTouched(const gl::Program& program, int level) const;
-    void touchedDone();
+    /// Around the tiles: x, y, width, height in pixels of level 0; may end beyond the picture.
+    [[nodiscard]] glm::ivec4 bounds() const;
 
 private:
+    friend class TouchedTiles;
     struct Level {
         glm::ivec2 tiles;
-        std::vector<bool> covered, touched;
-        gl::Buffer coveredList, touchedList; ///< x + 65536 y
-        int coveredCount = 0, touchedCount = 0;
+        std::vector<bool> covered;
+        gl::Buffer list; ///< x + 65536 y
+        int count = 0;
     };
-    static int list(const std::vector<bool>& mask, glm::ivec2 tiles, gl::Buffer& buffer);
+    static int write(const std::vector<bool>& mask, glm::ivec2 tiles, gl::Buffer& list);
 
     std::vector<Level> mLevels;
+};
+
+/// For a pass that leaves a background of its own: it has to write the tiles where something is
+/// seen, and those where something was when it ran before.
+class TouchedTiles {
+public:
+    /// A group of the program, which is in use, for each; the first time for all there are.
+    void dispatch(const gl::Program& program, const CoveredTiles& tiles, int level);
+
+private:
+    std::vector<bool> mCovered; ///< when it ran before
+    gl::Buffer mList;
 };
 
 } // namespace celadon

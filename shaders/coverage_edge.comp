@@ -60,5 +60,5 @@ void main() {
             result += vec4(own.rgb, 1.0); // a sliver that no pixel center sees: the pixel's own surface
         }
     }
-    imageStore(color, pixel, imageLoad(color, pixel) + result * jitterAndWeight.z);
+    addColor(pixel, result * jitterAndWeight.z);
 }

@@ -22,10 +22,8 @@ void main() {
         same += alike ? 1 : 0;
     }
     if (same == sampleCount && (!covered || facing > slanting)) {
-        if (covered) {
-            vec4 own = vec4(texelFetch(radiance, pixel, 0).rgb, 1.0) * (jitterAndWeight.z * float(sampleCount));
-            imageStore(color, pixel, imageLoad(color, pixel) + own);
-        }
+        vec4 own = covered ? vec4(texelFetch(radiance, pixel, 0).rgb, 1.0) : vec4(0.0);
+        addColor(pixel, own * (jitterAndWeight.z * float(sampleCount)));
         return;
     }
     listPixel(pixel);

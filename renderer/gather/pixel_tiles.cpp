@@ -13,7 +13,7 @@ namespace celadon {
 
 namespace {
 
-constexpr int kSquare = 32; ///< pixels on a side of what is put in order at once
+constexpr int kSquare = PixelTiles::kSquare;
 
 /// What one square of the screen comes to; ends count from its own first pixel or tile.
 struct Square {

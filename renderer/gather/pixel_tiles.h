@@ -16,6 +16,10 @@ public:
     /// A tile's pixels: row times width plus column.
     using Tile = std::span<const std::uint32_t>;
 
+    /// Pixels on a side of what is put in order at once: a part of a level has the tiles of the
+    /// whole if it begins at multiples of it.
+    static constexpr int kSquare = 32;
+
     PixelTiles() = default;
     /// @param level  which: of coarser ones fewer tiles share a block
     PixelTiles(const ViewTexels& texels, int level);

@@ -257,8 +257,12 @@ void Texture::readBytes(int level, glm::ivec3 offset, glm::ivec3 extent, GLenum 
 }
 
 void Texture::readLevel(int level, std::span<float> texels) const {
-    readBytes(level, glm::ivec3(0), size(level), GL_FLOAT, texels.data(), texels.size(),
-              texels.size_bytes());
+    readRegion(level, glm::ivec3(0), size(level), texels);
+}
+
+void Texture::readRegion(int level, glm::ivec3 offset, glm::ivec3 extent,
+                         std::span<float> texels) const {
+    readBytes(level, offset, extent, GL_FLOAT, texels.data(), texels.size(), texels.size_bytes());
 }
 
 std::vector<float> Texture::readLevel(int level) const {
@@ -267,8 +271,7 @@ std::vector<float> Texture::readLevel(int level) const {
 
 std::vector<float> Texture::readRegion(int level, glm::ivec3 offset, glm::ivec3 extent) const {
     std::vector<float> texels(count(extent) * static_cast<std::size_t>(channels()));
-    readBytes(level, offset, extent, GL_FLOAT, texels.data(), texels.size(),
-              texels.size() * sizeof(float));
+    readRegion(level, offset, extent, texels);
     return texels;
 }
 

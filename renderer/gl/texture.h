@@ -98,6 +98,7 @@ public:
     /// A box of a level: the texel under the cursor, one layer.
     [[nodiscard]] std::vector<float> readRegion(int level, glm::ivec3 offset,
                                                 glm::ivec3 extent) const;
+    void readRegion(int level, glm::ivec3 offset, glm::ivec3 extent, std::span<float> texels) const;
 
     void clear(int level, glm::vec4 value); ///< float, normalized and depth (x) formats
     void clear(int level, glm::uvec4 value);

@@ -131,7 +131,7 @@ void Antialiasing::drawSamples(const GpuWorld& world) {
 }
 
 void Antialiasing::resolveDraw(const GpuWorld& world, const SplattingBuffer& view,
-                               const gl::Texture& radiance, glm::dvec2 offset) {
+                               const gl::Texture& radiance, glm::dvec2 offset, bool isFirst) {
     mEdges.clear();
     view.positions().bind(0);
     view.normals().bind(1);
@@ -148,10 +148,13 @@ void Antialiasing::resolveDraw(const GpuWorld& world, const SplattingBuffer& vie
         program->set(0, glm::vec3(offset, 1.0 / (samples * mDraws)));
         program->set(1, samples);
         program->set(2, std::span<const glm::vec2>(mPlaces));
+        program->set(2 + kMostPlaces, isFirst);
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
     mInterior.use();
-    if (mTiles) {
+    if (mTiles && isFirst) {
+        mTouched.dispatch(mInterior, *mTiles, 0);
+    } else if (mTiles) {
         mTiles->dispatch(mInterior, 0);
     } else {
         mInterior.dispatchOver(view.size());
@@ -163,7 +166,6 @@ void Antialiasing::resolveDraw(const GpuWorld& world, const SplattingBuffer& vie
 void Antialiasing::resolve(const GpuWorld& world, const Camera& camera, const SplattingBuffer& view,
                            const gl::Texture& radiance) {
     const gl::DebugGroup group("antialiasing");
-    mColor.clear(0, glm::vec4(0.0f));
     for (int i = 0; i < mDraws; ++i) {
         // The picture moves against the draw's offset from the pixel's center.
         const glm::dvec2 offset = jitter(i);
@@ -171,7 +173,7 @@ void Antialiasing::resolve(const GpuWorld& world, const Camera& camera, const Sp
             findSamples(world, makeCameraView(camera, view.size().x, view.size().y, -offset), view);
             mSamplesOf = i == 0 ? view.drawn() : 0;
         }
-        resolveDraw(world, view, radiance, offset);
+        resolveDraw(world, view, radiance, offset, i == 0);
     }
 }
 

@@ -43,11 +43,12 @@ private:
     void upload(std::span<const std::uint32_t> triangles, std::span<const float> centerDepths,
                 const SplattingBuffer& view);
     void resolveDraw(const GpuWorld& world, const SplattingBuffer& view,
-                     const gl::Texture& radiance, glm::dvec2 offset);
+                     const gl::Texture& radiance, glm::dvec2 offset, bool isFirst);
 
     gl::Texture mSamples, mNormals, mDepthBuffer; ///< the driver's: multisampled
     gl::Texture mTriangles, mDepths;              ///< the processor's: a layer a sample
     std::optional<CoveredTiles> mTiles;           ///< of the processor's samples; else the driver's
+    TouchedTiles mTouched;
     gl::Texture mColor;
     int mDraws = 1;
     std::uint64_t mSamplesOf = 0;   ///< SplattingBuffer::drawn(), if they are its first draw's

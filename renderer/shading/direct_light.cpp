@@ -40,9 +40,12 @@ void DirectLight::shade(std::span<const Light> lights, const GpuWorld& world,
                         const SplattingBuffer& view, bool specular, bool shadows,
                         const Surroundings* around) {
     const gl::DebugGroup group("direct light");
-    mRadiance.clear(0, glm::vec4(0.0f));
+    gl::PassState clearing = gl::PassState::covering(mReachFramebuffer);
+    clearing.scissor = view.bounds(); // nobody asks the others
+    clearing.apply();
+    mReachFramebuffer.clearColor(0, glm::vec4(0.0f));
     if (around != nullptr) {
-        mReach.clear(0, glm::vec4(0.0f));
+        mReachFramebuffer.clearColor(1, glm::vec4(0.0f));
     }
     mLightViews.update(lights, world);
     const std::size_t firstAround = around != nullptr ? around->firstLight : lights.size();

@@ -13,9 +13,6 @@ ShadingPass::ShadingPass(const gl::ShaderLibrary& shaders, int materialCount,
 void ShadingPass::shade(const SplattingBuffer& view, const gl::Texture& exitance,
                         const gl::Texture& direct) {
     const gl::DebugGroup group("shading");
-    if (view.coveredTiles() != nullptr) {
-        mRadiance.clear(0, glm::vec4(0.0f)); // where no tile is
-    }
     mProgram.use();
     view.positions().bind(0);
     view.normals().bind(1);
@@ -25,7 +22,7 @@ void ShadingPass::shade(const SplattingBuffer& view, const gl::Texture& exitance
     view.emissions().bind(5);
     mRadiance.bindImage(0, 0, GL_WRITE_ONLY);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-    view.dispatchCovered(mProgram, 0);
+    view.dispatchTouched(mProgram, 0, mTiles);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 

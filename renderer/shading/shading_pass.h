@@ -21,6 +21,7 @@ public:
 private:
     gl::Texture mRadiance;
     gl::Program mProgram;
+    TouchedTiles mTiles;
 };
 
 } // namespace celadon

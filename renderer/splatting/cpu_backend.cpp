@@ -54,6 +54,32 @@ void read(const gl::Texture& texture, int level, std::vector<float>& texels) {
     texture.readLevel(level, std::span(texels));
 }
 
+/// The same of a part of it: x, y, width, height.
+void read(const gl::Texture& texture, int level, glm::ivec4 part, std::vector<float>& texels) {
+    const glm::ivec3 extent(part.z, part.w, 1);
+    texels.resize(static_cast<std::size_t>(extent.x * extent.y * texture.channels()));
+    texture.readRegion(level, glm::ivec3(part.x, part.y, 0), extent, std::span(texels));
+}
+
+/// x, y, width, height of what both cover, and of what lies between.
+glm::ivec4 unite(const glm::ivec4& a, const glm::ivec4& b) {
+    if (a.z == 0 || b.z == 0) {
+        return a.z == 0 ? b : a;
+    }
+    const glm::ivec2 low = glm::min(glm::ivec2(a), glm::ivec2(b));
+    const glm::ivec2 high =
+        glm::max(glm::ivec2(a.x + a.z, a.y + a.w), glm::ivec2(b.x + b.z, b.y + b.w));
+    return glm::ivec4(low, high - low);
+}
+
+/// Whole squares of a level that have something of a part of level 0, as far as there are pixels.
+glm::ivec4 partOfLevel(const glm::ivec4& part, int level, glm::ivec2 size) {
+    const int square = PixelTiles::kSquare << level;
+    const glm::ivec2 low = glm::ivec2(part.x, part.y) / square * PixelTiles::kSquare;
+    const glm::ivec2 end = (glm::ivec2(part.x + part.z, part.y + part.w) + square - 1) / square;
+    return glm::ivec4(low, glm::max(glm::min(end * PixelTiles::kSquare, size) - low, 0));
+}
+
 /// Adds light views up; the first one alone is there to begin with.
 void addTo(std::vector<float>& sum, const std::vector<float>& part) {
     if (sum.empty()) {
@@ -77,6 +103,7 @@ CpuBackend::CpuBackend(const gl::ShaderLibrary& shaders, std::span<const Materia
       mMaterials(materials),
       mExitance(gl::Texture::make2d("exitance", GL_RGBA32F, view.paddedSize(), view.levels())),
       mView(static_cast<std::size_t>(view.levels())),
+      mLitPart(0, 0, view.paddedSize()),
       mLights(keptLights(settings.irradianceSize)) {}
 
 void CpuBackend::materialChanged(const MaterialChange& change) {
@@ -97,12 +124,13 @@ void CpuBackend::begin(const SolveInput& input) {
     }
     if (mViewDrawn != input.view.drawn()) {
         mViewDrawn = input.view.drawn();
+        mViewPart = input.view.bounds();
         for (int k = 0; k < input.view.levels(); ++k) {
             ViewLevel& level = mView[static_cast<std::size_t>(k)];
-            read(input.view.positions(), k, level.positions);
-            read(input.view.surfaces(), k, level.surfaces);
-            level.tiles = PixelTiles(
-                {mExitance.size2d(k), level.positions.data(), level.surfaces.data(), nullptr}, k);
+            level.part = partOfLevel(unite(mLitPart, mViewPart), k, mExitance.size2d(k));
+            read(input.view.positions(), k, level.part, level.positions);
+            read(input.view.surfaces(), k, level.part, level.surfaces);
+            level.tiles = PixelTiles(level.texels(nullptr), k);
         }
         for (LightState& state : mLights) {
             state.isCurrent.clear();
@@ -243,8 +271,7 @@ void CpuBackend::gather(LightState& state, const Since& since, const SolveInput&
             exitance.assign(level.positions.size(), 0.0f);
         }
         const int number = static_cast<int>(k);
-        const ViewTexels texels{mExitance.size2d(number), level.positions.data(),
-                                level.surfaces.data(), exitance.data()};
+        const ViewTexels texels = level.texels(exitance.data());
         std::optional<GatherChange> change;
         if (keeps) {
             change.emplace(GatherChange{*treeChange, since.changed});
@@ -259,9 +286,13 @@ void CpuBackend::gather(LightState& state, const Since& since, const SolveInput&
 
 void CpuBackend::finish() {
     for (std::size_t k = 0; k < mView.size(); ++k) {
-        mView[k].exitance.resize(mView[k].positions.size(), 0.0f); // no light view was in use
-        mExitance.upload(static_cast<int>(k), std::span<const float>(mView[k].exitance));
+        ViewLevel& level = mView[k];
+        level.exitance.resize(level.positions.size(), 0.0f); // no light view was in use
+        mExitance.uploadRegion(static_cast<int>(k), glm::ivec3(level.part.x, level.part.y, 0),
+                               glm::ivec3(level.part.z, level.part.w, 1),
+                               std::span<const float>(level.exitance));
     }
+    mLitPart = mViewPart;
 }
 
 void CpuBackend::count(FrameStats& statistics) {

@@ -71,11 +71,18 @@ private:
     GatherSettings mGather;
     gl::Texture mExitance;
     struct ViewLevel {
+        glm::ivec4 part; ///< x, y, width, height: of this is the rest
         std::vector<float> positions, surfaces, exitance;
         PixelTiles tiles;
+
+        [[nodiscard]] ViewTexels texels(float* sums) const {
+            return {{part.z, part.w}, positions.data(), surfaces.data(), sums};
+        }
     };
     std::vector<ViewLevel> mView;
     std::uint64_t mViewDrawn = 0;    ///< SplattingBuffer::drawn() of mView
+    glm::ivec4 mViewPart{0};         ///< SplattingBuffer::bounds() then
+    glm::ivec4 mLitPart;             ///< of level 0: elsewhere mExitance is 0
     std::vector<LightState> mLights; ///< more light views take turns, and keep nothing
     std::size_t mLastLight = 0;
     std::uint64_t mGatheredPairs = 0;

@@ -34,6 +34,7 @@ SplattingBuffer::SplattingBuffer(const gl::ShaderLibrary& shaders, int materialC
     : mSize(size),
       mLevels(levels),
       mPaddedSize(celadon::paddedSize(size, levels)),
+      mBounds(0, 0, mPaddedSize),
       mFrameBlock("frame", sizeof(blocks::FrameBlock), gl::BufferUse::Update),
       mDraw("splatting buffer", shaders, SeenFrom::Camera, SurfaceDraw::Shows::Looks,
             "splatting_buffer.frag", {{"MATERIAL_COUNT", std::to_string(materialCount)}}),
@@ -44,6 +45,7 @@ SplattingBuffer::SplattingBuffer(const gl::ShaderLibrary& shaders, int materialC
     if (shaders.isDefined("VISIBLE_TRIANGLES")) {
         mTiles.emplace(mPaddedSize, levels);
     }
+    mMipTiles.resize(static_cast<std::size_t>(levels));
     // Powers of two, so that every level is covered by the next.
     const glm::uvec2 tiles((mPaddedSize + kTilePx - 1) / kTilePx);
     const glm::ivec2 tileSize(std::bit_ceil(tiles.x), std::bit_ceil(tiles.y));
@@ -73,7 +75,9 @@ const TriangleRaster* SplattingBuffer::draw(const GpuWorld& world, const CameraV
     state.framebuffer = &mFramebuffer;
     state.viewport = glm::ivec4(0, 0, mSize); // the padding stays background
     state.depthWrite = true;
-    state.apply();
+    gl::PassState clearing = state; // what is not background yet
+    clearing.scissor = mBounds;
+    clearing.apply();
     // Whoever reads the others asks one of these first.
     mFramebuffer.clearColor(0, glm::vec4(0.0f));
     mFramebuffer.clearColor(2, glm::vec4(0.0f, 0.0f, -1.0f, 0.0f));
@@ -81,6 +85,7 @@ const TriangleRaster* SplattingBuffer::draw(const GpuWorld& world, const CameraV
     const TriangleRaster* const seen = mDraw.draw(world, state, mDepth, morePlaces);
     if (seen != nullptr) {
         mTiles->find(seen->triangles().first(seen->pixels()), mSize);
+        mBounds = mTiles->bounds();
     }
     ++mDrawn;
     return seen;
@@ -94,6 +99,15 @@ void SplattingBuffer::bind(const GpuWorld& world) const {
 void SplattingBuffer::dispatchCovered(const gl::Program& program, int level) const {
     if (mTiles) {
         mTiles->dispatch(program, level);
+    } else {
+        program.dispatchOver(mTargets[0].size2d(level));
+    }
+}
+
+void SplattingBuffer::dispatchTouched(const gl::Program& program, int level,
+                                      TouchedTiles& touched) const {
+    if (mTiles) {
+        touched.dispatch(program, *mTiles, level);
     } else {
         program.dispatchOver(mTargets[0].size2d(level));
     }
@@ -120,14 +134,7 @@ void SplattingBuffer::buildMips(double clusterDepth) {
             mTargets[i].bindImage(static_cast<GLuint>(i), level, GL_WRITE_ONLY);
         }
         glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-        if (mTiles) {
-            mTiles->dispatchTouched(mMip, level);
-        } else {
-            mMip.dispatchOver(mTargets[0].size2d(level));
-        }
-    }
-    if (mTiles) {
-        mTiles->touchedDone();
+        dispatchTouched(mMip, level, mMipTiles[static_cast<std::size_t>(level)]);
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }

@@ -38,6 +38,10 @@ public:
     /// Runs a compute shader (include/covered_group.glsl), which is in use, for each pixel of a
     /// level where something is seen, and for others.
     void dispatchCovered(const gl::Program& program, int level) const;
+    /// The same for a pass that writes the background too, whose `touched` is.
+    void dispatchTouched(const gl::Program& program, int level, TouchedTiles& touched) const;
+    /// Around all that is seen: x, y, width, height in pixels of level 0; may be more than that.
+    [[nodiscard]] glm::ivec4 bounds() const { return mBounds; }
     /// These pixels; null where the driver draws.
     [[nodiscard]] const CoveredTiles* coveredTiles() const { return mTiles ? &*mTiles : nullptr; }
     /// Levels 1 and up. @param clusterDepth depths that count as one surface, in bounding sphere
@@ -67,6 +71,7 @@ private:
     glm::ivec2 mSize;
     int mLevels;
     glm::ivec2 mPaddedSize;
+    glm::ivec4 mBounds;
     gl::Texture mTargets[kTargets];
     gl::Texture mDepth;
     gl::Texture mTileRanges;
@@ -74,6 +79,7 @@ private:
     gl::Buffer mFrameBlock;
     SurfaceDraw mDraw;
     std::optional<CoveredTiles> mTiles; ///< with Rasterizer::Processor
+    std::vector<TouchedTiles> mMipTiles;
     gl::Program mRadii, mMip, mTileRange;
     std::uint64_t mDrawn = 0;
 };

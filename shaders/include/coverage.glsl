@@ -7,12 +7,17 @@
 layout(location = 0) uniform vec3 jitterAndWeight;  // of this draw, in pixels (x, y); 1 / all samples
 layout(location = 1) uniform int sampleCount;       // of this draw
 layout(location = 2) uniform vec2 samplePlaces[16]; // from the pixel's center, in pixels
+layout(location = 18) uniform bool isFirst;         // nothing of this picture is in `color` yet
 
 layout(binding = 0) uniform sampler2D positions; // pixel centers
 layout(binding = 1) uniform sampler2D normals;
 layout(binding = 2) uniform sampler2D radiance;
 
 layout(rgba32f, binding = 0) uniform image2D color; // premultiplied; alpha is coverage
+
+void addColor(ivec2 pixel, vec4 added) {
+    imageStore(color, pixel, isFirst ? added : imageLoad(color, pixel) + added);
+}
 
 #ifdef VISIBLE_TRIANGLES
 layout(binding = 3) uniform usampler2DArray sampleTriangles; // [sample]: number + 1; 0: nothing

@@ -219,17 +219,33 @@ TEST_F(RasterizerTest, AMovedViewLeavesNothingBehind) {
     // Passes that run only where something is seen must undo what they wrote elsewhere.
     const World world = makeWorld("builtin:vase", wax());
     FrameSettings settings = test::smallFrame(kSize, 64, Scheme::Hierarchical);
-    settings.coverageSamples = 4;
     settings.rasterizer = Rasterizer::Processor;
     const std::vector<Light> lights{test::frontLight()};
     const Camera near = test::defaultCamera(world, kSize);
     Camera far = near;
     far.eye = near.at + 4.0 * (near.eye - near.at);
-    FrameRenderer moved(context(), world, settings);
-    static_cast<void>(moved.render(near, lights));
-    const FloatImage after = moved.render(far, lights).image;
-    const FloatImage fresh = test::renderFrame(context(), world, settings, far, lights).image;
-    EXPECT_EQ(after.pixels, fresh.pixels);
+    Camera beside = far;
+    beside.at = far.at + 0.8 * glm::cross(near.eye - near.at, near.up);
+    Camera away = near;
+    away.at = 2.0 * near.eye - near.at;
+    const auto lightOf = [](FrameRenderer& renderer) {
+        std::vector<float> exitance;
+        for (int level = 0; level < renderer.exitance().levels(); ++level) {
+            const std::vector<float> texels = renderer.exitance().readLevel(level);
+            exitance.insert(exitance.end(), texels.begin(), texels.end());
+        }
+        return exitance;
+    };
+    for (const int samples : {1, 4, 8}) {
+        settings.coverageSamples = samples;
+        FrameRenderer moved(context(), world, settings);
+        for (const Camera& camera : {near, far, beside, away, near, beside}) {
+            FrameRenderer fresh(context(), world, settings);
+            EXPECT_EQ(moved.render(camera, lights).image.pixels,
+                      fresh.render(camera, lights).image.pixels);
+            EXPECT_EQ(lightOf(moved), lightOf(fresh));
+        }
+    }
 }
 
 } // namespace
