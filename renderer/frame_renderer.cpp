@@ -175,7 +175,7 @@ bool FrameRenderer::Passes::draw(const Camera& camera, std::span<const Light> ow
                 antialiasing ? antialiasing->placesToSee() : std::span<const glm::vec2>();
             const TriangleRaster* const seen = view.draw(gpuWorld, cameraView, places);
             if (seen != nullptr && antialiasing) {
-                antialiasing->take(*seen, view);
+                antialiasing->take(gpuWorld, *seen, view);
             }
             drawnKey = std::move(key);
         }

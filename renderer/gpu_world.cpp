@@ -3,6 +3,8 @@
 #include "renderer/gl/context.h"
 #include "renderer/reference/cut_out.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -329,6 +331,22 @@ std::vector<std::uint32_t> GpuWorld::Geometry::readIndices() const {
                                            3 * static_cast<std::size_t>(triangleCount));
 }
 
+namespace {
+
+/// Of which textures some look has one, as a constant of the shading language.
+std::string lookTextures(const World& world) {
+    const auto any = [&](TextureReference SurfaceMaterial::*texture) {
+        return std::ranges::any_of(
+            world.looks, [&](const SurfaceMaterial& look) { return (look.*texture).image >= 0; });
+    };
+    return fmt::format("bvec4({}, {}, {}, {})", any(&SurfaceMaterial::baseColorTexture),
+                       any(&SurfaceMaterial::metallicRoughnessTexture),
+                       any(&SurfaceMaterial::normalTexture),
+                       any(&SurfaceMaterial::emissiveTexture));
+}
+
+} // namespace
+
 std::vector<gl::ShaderDefine> sceneDefines(const World& world, Rasterizer rasterizer) {
     std::vector<gl::ShaderDefine> defines;
     if (std::any_of(world.looks.begin(), world.looks.end(),
@@ -342,6 +360,7 @@ std::vector<gl::ShaderDefine> sceneDefines(const World& world, Rasterizer raster
     if (rasterizer == Rasterizer::Processor) {
         defines.push_back({"VISIBLE_TRIANGLES", "1"});
     }
+    defines.push_back({"LOOK_TEXTURES", lookTextures(world)});
     return defines;
 }
 

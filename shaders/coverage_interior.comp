@@ -11,19 +11,15 @@ void main() {
     }
     vec4 position = texelFetch(positions, pixel, 0);
     vec4 normal = texelFetch(normals, pixel, 0);
-    bool covered = position.w > 0.0;
+    if (position.w <= 0.0 && showNothing(pixel)) {
+        addColor(pixel, vec4(0.0));
+        return;
+    }
     float facing = dot(normal.xyz, directionToEye(position.xyz));
     // A sample's plane may pass one pixel beside the center's, along the ray.
     float slack = pixelWidthMm(position.w) / max(abs(facing), 0.05);
-    int same = 0;
-    for (int i = 0; i < sampleCount; ++i) {
-        vec2 s = sampleAt(pixel, i);
-        bool alike = covered ? s.y == normal.w && abs(s.x - position.w) < slack : s.x <= 0.0;
-        same += alike ? 1 : 0;
-    }
-    if (same == sampleCount && (!covered || facing > slanting)) {
-        vec4 own = covered ? vec4(texelFetch(radiance, pixel, 0).rgb, 1.0) : vec4(0.0);
-        addColor(pixel, own * (jitterAndWeight.z * float(sampleCount)));
+    if (position.w > 0.0 && facing > slanting && showAll(pixel, normal.w, position.w, slack)) {
+        addColor(pixel, vec4(texelFetch(radiance, pixel, 0).rgb, 1.0) * (jitterAndWeight.z * float(sampleCount)));
         return;
     }
     listPixel(pixel);

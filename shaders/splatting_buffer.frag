@@ -74,14 +74,14 @@ void main() {
     int m = meshInfo.x;
     outPosition = vec4(surface.position, depth);
     outSurface = vec4(surface.uv, float(m), m >= 0 ? materialRadii(m, surface.uv).x : 0.0);
-    vec3 specularNormal = textureSets.z >= 0 ? mappedNormal(n) : n;
+    vec3 specularNormal = hasTexture(2) ? mappedNormal(n) : n;
     vec2 metallicRoughness = lobe.xy;
-    if (textureSets.y >= 0) {
+    if (hasTexture(1)) {
         vec4 texel = lookTexture(metallicRoughnessTexture, 1);
         metallicRoughness *= texel.bg;
     }
     vec4 base = baseColor * vertexColor();
-    if (textureSets.x >= 0) {
+    if (hasTexture(0)) {
         base *= lookTexture(baseColorTexture, 0);
     }
     if (m >= 0) {
@@ -92,7 +92,7 @@ void main() {
     outLobe = vec4(specularNormal, metallicRoughness.y);
     outBase = vec4(base.rgb, metallicRoughness.x);
     vec3 emitted = emission;
-    if (textureSets.w >= 0) {
+    if (hasTexture(3)) {
         emitted *= lookTexture(emissionTexture, 3).rgb;
     }
     outEmission = vec4(min(emitted, 65504.0), ior); // the largest half

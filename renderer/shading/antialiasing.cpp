@@ -2,6 +2,7 @@
 
 #include "renderer/gl/debug.h"
 #include "renderer/gl/pass_state.h"
+#include "renderer/shading/sample_ranges.h"
 #include "renderer/surface_draw.h"
 
 #include <algorithm>
@@ -71,6 +72,7 @@ void Antialiasing::makeSamplesOfProcessor(const SplattingBuffer& view) {
     const auto layers = static_cast<int>(mPlaces.size());
     mTriangles = gl::Texture::makeArray("coverage: triangles", GL_R32UI, view.size(), layers);
     mDepths = gl::Texture::makeArray("coverage: depths", GL_R32F, view.size(), layers);
+    mRanges = gl::Texture::make2d("coverage: ranges of depths", GL_RG32F, view.size());
 }
 
 void Antialiasing::makeSamplesOfDriver(const gl::ShaderLibrary& shaders, glm::ivec2 size,
@@ -99,21 +101,28 @@ void Antialiasing::findSamples(const GpuWorld& world, const CameraView& jittered
     RasterView seen = boundRasterView(world, SeenFrom::Camera, view.size()).value();
     seen.places = mPlaces;
     const TriangleRaster& raster = world.rasterize(seen);
-    upload(raster.triangles(), raster.centerDepths(), view);
+    upload(world, raster.triangles(), raster.centerDepths(), view);
 }
 
 std::span<const glm::vec2> Antialiasing::placesToSee() const {
     return mTiles ? std::span<const glm::vec2>(mPlaces) : std::span<const glm::vec2>();
 }
 
-void Antialiasing::take(const TriangleRaster& seen, const SplattingBuffer& view) {
-    upload(seen.triangles().subspan(seen.pixels()), seen.centerDepths().subspan(seen.pixels()),
-           view);
+void Antialiasing::take(const GpuWorld& world, const TriangleRaster& seen,
+                        const SplattingBuffer& view) {
+    upload(world, seen.triangles().subspan(seen.pixels()),
+           seen.centerDepths().subspan(seen.pixels()), view);
     mSamplesOf = view.drawn();
 }
 
-void Antialiasing::upload(std::span<const std::uint32_t> triangles,
+void Antialiasing::upload(const GpuWorld& world, std::span<const std::uint32_t> triangles,
                           std::span<const float> centerDepths, const SplattingBuffer& view) {
+    std::vector<std::uint32_t> meshEnds;
+    for (std::size_t mesh = 0; mesh < world.meshCount(); ++mesh) {
+        meshEnds.push_back(static_cast<std::uint32_t>(world.placeOf(mesh).w));
+    }
+    findSampleRanges(triangles, centerDepths, mRanges.texelCount(0), meshEnds, mRangeTexels);
+    mRanges.upload(0, std::span<const float>(&mRangeTexels.data()->x, 2 * mRangeTexels.size()));
     mTriangles.upload(0, triangles);
     mDepths.upload(0, centerDepths);
     mTiles->find(triangles, view.size(), view.coveredTiles());
@@ -139,6 +148,7 @@ void Antialiasing::resolveDraw(const GpuWorld& world, const SplattingBuffer& vie
     (mTiles ? mTriangles : mSamples).bind(3);
     (mTiles ? mDepths : mNormals).bind(4);
     if (mTiles) {
+        mRanges.bind(5);
         world.bindTriangles();
         world.places().bindStorage(1);
     }

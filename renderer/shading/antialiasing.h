@@ -26,7 +26,7 @@ public:
     /// driver draws.
     [[nodiscard]] std::span<const glm::vec2> placesToSee() const;
     /// @param seen of SplattingBuffer::draw, with these places
-    void take(const TriangleRaster& seen, const SplattingBuffer& view);
+    void take(const GpuWorld& world, const TriangleRaster& seen, const SplattingBuffer& view);
 
     void resolve(const GpuWorld& world, const Camera& camera, const SplattingBuffer& view,
                  const gl::Texture& radiance);
@@ -40,14 +40,16 @@ private:
     void findSamples(const GpuWorld& world, const CameraView& jittered,
                      const SplattingBuffer& view);
     void drawSamples(const GpuWorld& world);
-    void upload(std::span<const std::uint32_t> triangles, std::span<const float> centerDepths,
-                const SplattingBuffer& view);
+    void upload(const GpuWorld& world, std::span<const std::uint32_t> triangles,
+                std::span<const float> centerDepths, const SplattingBuffer& view);
     void resolveDraw(const GpuWorld& world, const SplattingBuffer& view,
                      const gl::Texture& radiance, glm::dvec2 offset, bool isFirst);
 
     gl::Texture mSamples, mNormals, mDepthBuffer; ///< the driver's: multisampled
     gl::Texture mTriangles, mDepths;              ///< the processor's: a layer a sample
-    std::optional<CoveredTiles> mTiles;           ///< of the processor's samples; else the driver's
+    gl::Texture mRanges;                          ///< of these depths, see findSampleRanges()
+    std::vector<glm::vec2> mRangeTexels;
+    std::optional<CoveredTiles> mTiles; ///< of the processor's samples; else the driver's
     TouchedTiles mTouched;
     gl::Texture mColor;
     int mDraws = 1;

@@ -40,9 +40,7 @@ void DirectLight::shade(std::span<const Light> lights, const GpuWorld& world,
                         const SplattingBuffer& view, bool specular, bool shadows,
                         const Surroundings* around) {
     const gl::DebugGroup group("direct light");
-    gl::PassState clearing = gl::PassState::covering(mReachFramebuffer);
-    clearing.scissor = view.bounds(); // nobody asks the others
-    clearing.apply();
+    gl::PassState::covering(mReachFramebuffer).apply();
     mReachFramebuffer.clearColor(0, glm::vec4(0.0f));
     if (around != nullptr) {
         mReachFramebuffer.clearColor(1, glm::vec4(0.0f));

@@ -75,9 +75,7 @@ const TriangleRaster* SplattingBuffer::draw(const GpuWorld& world, const CameraV
     state.framebuffer = &mFramebuffer;
     state.viewport = glm::ivec4(0, 0, mSize); // the padding stays background
     state.depthWrite = true;
-    gl::PassState clearing = state; // what is not background yet
-    clearing.scissor = mBounds;
-    clearing.apply();
+    state.apply();
     // Whoever reads the others asks one of these first.
     mFramebuffer.clearColor(0, glm::vec4(0.0f));
     mFramebuffer.clearColor(2, glm::vec4(0.0f, 0.0f, -1.0f, 0.0f));

@@ -22,6 +22,7 @@ void addColor(ivec2 pixel, vec4 added) {
 #ifdef VISIBLE_TRIANGLES
 layout(binding = 3) uniform usampler2DArray sampleTriangles; // [sample]: number + 1; 0: nothing
 layout(binding = 4) uniform sampler2DArray sampleDepths;     // over w, of the triangle's plane at the pixel's center
+layout(binding = 5) uniform sampler2D sampleRanges;          // of these depths; 0: nothing is seen, -1: not the same in all
 layout(std430, binding = 1) restrict readonly buffer MeshPlaces { MeshPlace meshPlaces[]; };
 
 // See surface.vert.
@@ -61,6 +62,35 @@ vec2 sampleAt(ivec2 pixel, int i) {
     return vec2(viewDepth(texelFetch(sampleDepths, ivec3(pixel, i), 0).r), float(meshOf(triangle) + 1));
 #else
     return texelFetch(samples, pixel, i).xy;
+#endif
+}
+
+// Whether all samples show one mesh, at a view depth near the given one.
+bool showAll(ivec2 pixel, float mesh, float depth, float slack) {
+#ifdef VISIBLE_TRIANGLES
+    vec2 range = texelFetch(sampleRanges, pixel, 0).rg;
+    float shown = float(meshOf(int(texelFetch(sampleTriangles, ivec3(pixel, 0), 0).r) - 1) + 1);
+    return range.x > 0.0 && shown == mesh && abs(viewDepth(range.x) - depth) < slack && abs(viewDepth(range.y) - depth) < slack;
+#else
+    int same = 0;
+    for (int i = 0; i < sampleCount; ++i) {
+        vec2 s = sampleAt(pixel, i);
+        same += s.y == mesh && abs(s.x - depth) < slack ? 1 : 0;
+    }
+    return same == sampleCount;
+#endif
+}
+
+// Whether no sample shows anything.
+bool showNothing(ivec2 pixel) {
+#ifdef VISIBLE_TRIANGLES
+    return texelFetch(sampleRanges, pixel, 0).g == 0.0;
+#else
+    bool isEmpty = true;
+    for (int i = 0; i < sampleCount; ++i) {
+        isEmpty = isEmpty && sampleAt(pixel, i).x <= 0.0;
+    }
+    return isEmpty;
 #endif
 }
 

@@ -7,6 +7,12 @@ layout(location = 6) uniform mat3 textureTransforms[4];
 
 layout(binding = 0) uniform sampler2D baseColorTexture; // sRGB
 
+// Which textures any mesh of the scene has: others are left out, since software drivers look up what no branch takes.
+#ifndef LOOK_TEXTURES
+#define LOOK_TEXTURES bvec4(true)
+#endif
+bool hasTexture(int index) { return LOOK_TEXTURES[index] && textureSets[index] >= 0; }
+
 vec2 textureCoordinate(int index, vec2 uv, vec2 uv1) {
     return (textureTransforms[index] * vec3(textureSets[index] == 1 ? uv1 : uv, 1.0)).xy;
 }
@@ -30,7 +36,7 @@ vec4 lookTexture(sampler2D image, int index) {
 // says the same to rays.
 bool isThere(vec2 uv, vec2 uv1, float vertexAlpha) {
     float alpha = baseColor.a * vertexAlpha;
-    if (textureSets.x >= 0) {
+    if (hasTexture(0)) {
         alpha *= textureLod(baseColorTexture, textureCoordinate(0, uv, uv1), 0.0).a;
     }
     return alpha >= alphaCutoff;
