@@ -103,7 +103,7 @@ struct FrameRenderer::Passes {
                    ? SplattingSolver::viewLevels(theSettings.splatting)
                    : 1),
           directLight(shaders, view, theSettings.shadowSize),
-          shading(shaders, materials.count(), view),
+          shading(shaders, materials.count(), view, theSettings.leastCosine),
           antialiasing(settings.coverageSamples > 1
                            ? std::make_unique<Antialiasing>(shaders, view, settings.coverageSamples)
                            : nullptr) {

@@ -39,6 +39,9 @@ struct FrameSettings {
     int referenceBlocks = 1;
     bool specular = true;
     int coverageSamples = 4;
+    /// Of normal and view, for the Fresnel term of what is seen: without antialiasing, pixels at
+    /// silhouettes would be dark dots.
+    double leastCosine = 0.0;
     int shadowSize = 1024;
     Rasterizer rasterizer = Rasterizer::Auto;
     bool shadows = true;     ///< of highlights and of what falls on opaque parts

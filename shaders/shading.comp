@@ -5,6 +5,8 @@
 #include "include/material.glsl"
 #include "include/covered_group.glsl"
 
+layout(location = 0) uniform float leastCosine; // of normal and view
+
 layout(binding = 0) uniform sampler2D positions;
 layout(binding = 1) uniform sampler2D normals;
 layout(binding = 2) uniform sampler2D surfaces;
@@ -26,7 +28,7 @@ void main() {
         int m = int(texelFetch(surfaces, pixel, 0).z);
         if (m >= 0) {
             float cosine = dot(texelFetch(normals, pixel, 0).xyz, directionToEye(position.xyz));
-            float transmitted = fresnelTransmittance(cosine, materials[m].profile.z);
+            float transmitted = fresnelTransmittance(max(cosine, leastCosine), materials[m].profile.z);
             result.rgb += transmitted * materials[m].profile.w / 3.14159265 * texelFetch(exitances, pixel, 0).rgb;
         }
     }

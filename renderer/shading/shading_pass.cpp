@@ -5,10 +5,12 @@
 namespace celadon {
 
 ShadingPass::ShadingPass(const gl::ShaderLibrary& shaders, int materialCount,
-                         const SplattingBuffer& view)
+                         const SplattingBuffer& view, double leastCosine)
     : mRadiance(gl::Texture::make2d("radiance", GL_RGBA32F, view.size())),
       mProgram("shading", shaders, {"shading.comp"},
-               {{"MATERIAL_COUNT", std::to_string(materialCount)}}) {}
+               {{"MATERIAL_COUNT", std::to_string(materialCount)}}) {
+    mProgram.set(0, static_cast<float>(leastCosine));
+}
 
 void ShadingPass::shade(const SplattingBuffer& view, const gl::Texture& exitance,
                         const gl::Texture& direct) {

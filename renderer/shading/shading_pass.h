@@ -10,7 +10,9 @@ namespace celadon {
 
 class ShadingPass {
 public:
-    ShadingPass(const gl::ShaderLibrary& shaders, int materialCount, const SplattingBuffer& view);
+    /// @param leastCosine as FrameSettings
+    ShadingPass(const gl::ShaderLibrary& shaders, int materialCount, const SplattingBuffer& view,
+                double leastCosine);
 
     /// The frame and material blocks are bound.
     void shade(const SplattingBuffer& view, const gl::Texture& exitance, const gl::Texture& direct);

@@ -1,5 +1,6 @@
 // What the model's looks do to light and to the picture: cut-outs let light and sight through, the
 // same for the camera, for lights and for rays.
+#include "renderer/frame_quality.h"
 #include "renderer/reference/ray_scene.h"
 #include "tests/support/frames.h"
 #include "tests/support/gl_fixture.h"
@@ -8,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -240,6 +242,35 @@ TEST_F(Looks, EmissionAddsToReflectedLight) {
     EXPECT_GT(colorAt(dark, {24, 32}).g, 0.1f);
     EXPECT_NEAR(colorAt(glowing, {24, 32}).g - colorAt(dark, {24, 32}).g, 0.5f, 1e-6f);
     EXPECT_EQ(colorAt(glowing, {40, 32}), colorAt(dark, {40, 32}));
+}
+
+// A sketch has no antialiasing, which would replace pixels at silhouettes whose normals turn away.
+TEST_F(Looks, SketchesHaveNoDarkRims) {
+    const World world = test::makeWorld("builtin:vase", test::shortRangeMaterial());
+    FrameSettings settings = frameSettings(Quality::Sketch);
+    settings.size = glm::ivec2(160);
+    settings.specular = false;
+    settings.layers = true;
+    const std::vector<Light> lights{test::frontLight()};
+    const FloatImage image = test::renderFrame(context(), world, settings,
+                                               test::defaultCamera(world, settings.size), lights)
+                                 .image;
+    const int exitance = image.channelIndex("exitance.R");
+    float least = 1e30f;
+    float greatest = 0.0f;
+    int seen = 0;
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            if (image.at(x, y, exitance) > 1e-3f) {
+                const float transmitted = image.at(x, y, 0) / image.at(x, y, exitance);
+                least = std::min(least, transmitted);
+                greatest = std::max(greatest, transmitted);
+                ++seen;
+            }
+        }
+    }
+    EXPECT_GT(seen, 3000);
+    EXPECT_GT(least, 0.7f * greatest); // the Fresnel terms of 0.25 and 1
 }
 
 } // namespace
