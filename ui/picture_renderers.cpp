@@ -26,6 +26,9 @@ FrameSettings settingsOf(const PictureRequest& request) {
     FrameSettings settings = frameSettings(request.rung.quality);
     settings.size = renderedSize(request.windowSizePx, request.rung.divisor);
     settings.coverageSamples = request.rung.samples;
+    if (settings.coverageSamples == 1) { // a draft then looks as sketches do
+        settings.leastCosine = frameSettings(Quality::Sketch).leastCosine;
+    }
     settings.specular = request.specular;
     if (looksAtLight(request.view.mode)) { // whose tree is there to be looked at
         settings.splatting.backend = SplatBackendKind::Cpu;
