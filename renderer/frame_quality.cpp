@@ -15,7 +15,7 @@ FrameSettings frameSettings(Quality quality) {
         splatting.pixelAngle = 0.3;
         splatting.fade = 0.3;
         settings.coverageSamples = 1;
-        settings.leastCosine = 0.25; // as antialiasing has it
+        settings.leastCosine = 0.25; // `slanting` of coverage.glsl
         settings.shadowSize = 16;
         settings.shadows = false;
         break;

@@ -42,10 +42,6 @@ inline __m128i record(const std::uint16_t* codes, std::int32_t index) {
     return _mm_loadu_si128(reinterpret_cast<const __m128i*>(codes + index));
 }
 
-inline __m256i runRecord(const std::uint16_t* codes, std::int32_t index) {
-    return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(codes + index));
-}
-
 inline EightEnds eightEnds(const std::uint16_t* codes, const std::int32_t* index) {
     const auto pair = [&](int i) {
         return _mm256_inserti128_si256(_mm256_castsi128_si256(record(codes, index[i])),

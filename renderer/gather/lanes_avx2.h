@@ -4,6 +4,7 @@
 
 #include "renderer/gather/eight_records.h"
 #include "renderer/gather/pair_kernel.h"
+#include "renderer/gather/turn_runs.h"
 
 #include <cstdint>
 #include <immintrin.h>
@@ -96,50 +97,28 @@ struct Lanes {
         return eightMeanEnds(a, indexA, b, indexB);
     }
     static Run run(const std::uint16_t* codes, const std::int32_t* index) {
-        return turned([&](int i) { return runRecord(codes, index[i]); });
+        return turnRuns<Lanes>([&](int i) { return runRecord(codes, index[i]); });
     }
     static Run meanRun(const std::uint16_t* a, const std::int32_t* indexA, const std::uint16_t* b,
                        const std::int32_t* indexB) {
-        return turned([&](int i) {
+        return turnRuns<Lanes>([&](int i) {
             return _mm256_avg_epu16(runRecord(a, indexA[i]), runRecord(b, indexB[i]));
         });
     }
+    /// For turnRuns().
+    template<class Record>
+    static Int rows(const Record& record, int i) {
+        return record(i);
+    }
+    static Int zero() { return _mm256_setzero_si256(); }
+    static Int low16(Int a, Int b) { return _mm256_unpacklo_epi16(a, b); }
+    static Int high16(Int a, Int b) { return _mm256_unpackhi_epi16(a, b); }
+    static Int low32(Int a, Int b) { return _mm256_unpacklo_epi32(a, b); }
+    static Int high32(Int a, Int b) { return _mm256_unpackhi_epi32(a, b); }
+    static Int firstKnots(Int a, Int b) { return _mm256_permute2x128_si256(a, b, 0x20); }
+    static Int lastKnots(Int a, Int b) { return _mm256_permute2x128_si256(a, b, 0x31); }
     static void addColors(float (*sums)[4], const std::int32_t* pixel, const Float* color) {
         addEightColors(sums, pixel, color);
-    }
-
-private:
-    /// In the low halves of the records knots 0 and 1, in the high ones 2 and 3.
-    template<class Record>
-    static Run turned(const Record& record) {
-        struct Colors {
-            Int redGreen[2], blue[2]; ///< [knot % 2]
-        };
-        const auto four = [&](int first) {
-            const Int a = record(first), b = record(first + 1);
-            const Int c = record(first + 2), d = record(first + 3);
-            const Int evenAB = _mm256_unpacklo_epi16(a, b), oddAB = _mm256_unpackhi_epi16(a, b);
-            const Int evenCD = _mm256_unpacklo_epi16(c, d), oddCD = _mm256_unpackhi_epi16(c, d);
-            return Colors{
-                {_mm256_unpacklo_epi32(evenAB, evenCD), _mm256_unpacklo_epi32(oddAB, oddCD)},
-                {_mm256_unpackhi_epi32(evenAB, evenCD), _mm256_unpackhi_epi32(oddAB, oddCD)}};
-        };
-        const Colors low = four(0);
-        const Colors high = four(4);
-        const Int zero = _mm256_setzero_si256();
-        Run run;
-        const auto put = [&](int knot, Int redGreen, Int blue) {
-            run.code[knot][0] = _mm256_cvtepi32_ps(_mm256_unpacklo_epi16(redGreen, zero));
-            run.code[knot][1] = _mm256_cvtepi32_ps(_mm256_unpackhi_epi16(redGreen, zero));
-            run.code[knot][2] = _mm256_cvtepi32_ps(_mm256_unpacklo_epi16(blue, zero));
-        };
-        for (int odd = 0; odd < 2; ++odd) {
-            put(odd, _mm256_permute2x128_si256(low.redGreen[odd], high.redGreen[odd], 0x20),
-                _mm256_permute2x128_si256(low.blue[odd], high.blue[odd], 0x20));
-            put(odd + 2, _mm256_permute2x128_si256(low.redGreen[odd], high.redGreen[odd], 0x31),
-                _mm256_permute2x128_si256(low.blue[odd], high.blue[odd], 0x31));
-        }
-        return run;
     }
 };
 

@@ -4,6 +4,7 @@
 
 #include "renderer/gather/eight_records.h"
 #include "renderer/gather/pair_kernel.h"
+#include "renderer/gather/turn_runs.h"
 
 #include <cstdint>
 #include <immintrin.h>
@@ -73,14 +74,26 @@ struct Lanes {
         Float code[kRunKnots][3];
     };
     static Run run(const std::uint16_t* codes, const std::int32_t* index) {
-        return turned([&](int i) { return runRecord(codes, index[i]); });
+        return turnRuns<Lanes>([&](int i) { return runRecord(codes, index[i]); });
     }
     static Run meanRun(const std::uint16_t* a, const std::int32_t* indexA, const std::uint16_t* b,
                        const std::int32_t* indexB) {
-        return turned([&](int i) {
+        return turnRuns<Lanes>([&](int i) {
             return _mm256_avg_epu16(runRecord(a, indexA[i]), runRecord(b, indexB[i]));
         });
     }
+    /// For turnRuns().
+    template<class Record>
+    static Int rows(const Record& record, int i) {
+        return _mm512_inserti64x4(_mm512_castsi256_si512(record(i)), record(i + 4), 1);
+    }
+    static Int zero() { return _mm512_setzero_si512(); }
+    static Int low16(Int a, Int b) { return _mm512_unpacklo_epi16(a, b); }
+    static Int high16(Int a, Int b) { return _mm512_unpackhi_epi16(a, b); }
+    static Int low32(Int a, Int b) { return _mm512_unpacklo_epi32(a, b); }
+    static Int high32(Int a, Int b) { return _mm512_unpackhi_epi32(a, b); }
+    static Int firstKnots(Int a, Int b) { return _mm512_shuffle_i64x2(a, b, 0x88); }
+    static Int lastKnots(Int a, Int b) { return _mm512_shuffle_i64x2(a, b, 0xdd); }
     static void addColors(float (*sums)[4], const std::int32_t* pixel, const Float* color) {
         for (int half = 0; half < 2; ++half) {
             __m256 part[3];
@@ -93,42 +106,6 @@ struct Lanes {
     }
 
 private:
-    /// Quarters of a register hold, in turn, knots 0 and 1 and knots 2 and 3 of four records.
-    template<class Record>
-    static Run turned(const Record& record) {
-        struct Colors {
-            Int redGreen[2], blue[2]; ///< [knot % 2]
-        };
-        const auto eight = [&](int first) {
-            const auto both = [&](int i) {
-                return _mm512_inserti64x4(_mm512_castsi256_si512(record(i)), record(i + 4), 1);
-            };
-            const Int a = both(first), b = both(first + 1);
-            const Int c = both(first + 2), d = both(first + 3);
-            const Int evenAB = _mm512_unpacklo_epi16(a, b), oddAB = _mm512_unpackhi_epi16(a, b);
-            const Int evenCD = _mm512_unpacklo_epi16(c, d), oddCD = _mm512_unpackhi_epi16(c, d);
-            return Colors{
-                {_mm512_unpacklo_epi32(evenAB, evenCD), _mm512_unpacklo_epi32(oddAB, oddCD)},
-                {_mm512_unpackhi_epi32(evenAB, evenCD), _mm512_unpackhi_epi32(oddAB, oddCD)}};
-        };
-        const Colors low = eight(0);
-        const Colors high = eight(8);
-        const Int zero = _mm512_setzero_si512();
-        Run run;
-        const auto put = [&](int knot, Int redGreen, Int blue) {
-            run.code[knot][0] = _mm512_cvtepi32_ps(_mm512_unpacklo_epi16(redGreen, zero));
-            run.code[knot][1] = _mm512_cvtepi32_ps(_mm512_unpackhi_epi16(redGreen, zero));
-            run.code[knot][2] = _mm512_cvtepi32_ps(_mm512_unpacklo_epi16(blue, zero));
-        };
-        for (int odd = 0; odd < 2; ++odd) {
-            put(odd, _mm512_shuffle_i64x2(low.redGreen[odd], high.redGreen[odd], 0x88),
-                _mm512_shuffle_i64x2(low.blue[odd], high.blue[odd], 0x88));
-            put(odd + 2, _mm512_shuffle_i64x2(low.redGreen[odd], high.redGreen[odd], 0xdd),
-                _mm512_shuffle_i64x2(low.blue[odd], high.blue[odd], 0xdd));
-        }
-        return run;
-    }
-
     static Ends join(const EightEnds& low, const EightEnds& high) {
         Ends ends;
         for (int c = 0; c < 3; ++c) {

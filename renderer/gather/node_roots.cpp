@@ -130,6 +130,13 @@ void SampleTree::setRadii(Mean& mean, const Radii& radii) {
     std::copy_n(radii.kept, 3, mean.kept);
 }
 
+/// How many the profile of a node has.
+std::size_t SampleTree::codesOf(std::size_t level, std::size_t i) const {
+    const int knots = level == 0 ? mMaterials->map(mMeans[0][i].material).knots()
+                                 : mMaterials->commonKnots().segments + 1;
+    return static_cast<std::size_t>(gather::kKnotCodes * knots);
+}
+
 /// Where the codes of each profile of the first levels are to stand.
 void SampleTree::placeProfiles(std::size_t levels) {
     std::size_t end = 0;
@@ -137,9 +144,7 @@ void SampleTree::placeProfiles(std::size_t levels) {
         std::vector<gather::Sample>& samples = mLevels[k].samples;
         for (std::size_t i = 0; i < samples.size(); ++i) {
             samples[i].profile = static_cast<std::uint32_t>(end);
-            const int knots = k == 0 ? mMaterials->map(mMeans[0][i].material).knots()
-                                     : mMaterials->commonKnots().segments + 1;
-            end += static_cast<std::size_t>(gather::kKnotCodes * knots);
+            end += codesOf(k, i);
         }
     }
     mCodes.resize(end + gather::kCodesBehind);
@@ -159,10 +164,7 @@ void SampleTree::makeProfiles(const LightTexels& texels, std::size_t level,
     // Roots and radii of what is not new stand where they were made; codes are the other tree's.
     const auto keep = [&](std::size_t i) {
         const std::size_t first = here.samples[i].profile;
-        const int knots =
-            level == 0 ? mMaterials->map(mMeans[0][i].material).knots() : common.segments + 1;
-        std::copy_n(before->mCodes.data() + first,
-                    gather::kKnotCodes * static_cast<std::size_t>(knots), mCodes.data() + first);
+        std::copy_n(before->mCodes.data() + first, codesOf(level, i), mCodes.data() + first);
     };
 
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 128), [&](const auto& range) {

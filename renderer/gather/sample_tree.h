@@ -137,6 +137,7 @@ private:
 
     void makeLeaves(const LightTexels& texels);
     void makeParents(std::size_t level);
+    [[nodiscard]] std::size_t codesOf(std::size_t level, std::size_t i) const;
     void placeProfiles(std::size_t levels);
     void makeProfiles(const LightTexels& texels, std::size_t level, const SampleTree* before,
                       const ChangedTexels& changed);
