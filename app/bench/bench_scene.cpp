@@ -1,5 +1,6 @@
 #include "app/bench/bench_scene.h"
 
+#include "app/bench/triangle_count.h"
 #include "app/render_scene.h"
 #include "subedit/errors.h"
 #include "subedit/fit/profile_fit.h"
@@ -46,6 +47,7 @@ std::vector<BenchScene> benchScenes(const std::string& suite) {
     std::vector<BenchScene> scenes{{"dragon",
                                     "mesh/stanford_dragon_871k.ply",
                                     "vase",
+                                    560'000,
                                     {110, 110},
                                     {0.12, 0.30},
                                     false,
@@ -54,6 +56,7 @@ std::vector<BenchScene> benchScenes(const std::string& suite) {
                                    {"buddha",
                                     "mesh/happy_buddha_100k.obj",
                                     "shell",
+                                    100'000,
                                     {145, 275},
                                     {0.04, 0.15},
                                     false,
@@ -61,6 +64,7 @@ std::vector<BenchScene> benchScenes(const std::string& suite) {
                                    {"bunny",
                                     "mesh/stanford_bunny_69k_ascii.ply",
                                     "vase",
+                                    70'000,
                                     {277, 277},
                                     {0.06, 0.25},
                                     true,
@@ -68,6 +72,7 @@ std::vector<BenchScene> benchScenes(const std::string& suite) {
                                    {"bird",
                                     "mesh/penguin_27k.obj",
                                     "sphere",
+                                    54'000,
                                     {224, 214},
                                     {0.15, 0.30},
                                     false,
@@ -75,6 +80,7 @@ std::vector<BenchScene> benchScenes(const std::string& suite) {
                                    {"parent",
                                     "mesh/hand_16k.obj",
                                     "shell",
+                                    30'000,
                                     {504, 504},
                                     {0.10, 0.20},
                                     false,
@@ -82,6 +88,7 @@ std::vector<BenchScene> benchScenes(const std::string& suite) {
                                    {"elephant",
                                     "mesh/armadillo_86k.obj",
                                     "vase",
+                                    20'000,
                                     {212, 138},
                                     {0.08, 0.35},
                                     false,
@@ -90,8 +97,8 @@ std::vector<BenchScene> benchScenes(const std::string& suite) {
         return scenes;
     }
     if (suite == "quick") {
-        return {{"vase", "", "vase", {128, 128}, {0.06, 0.25}, true, {}},
-                {"sphere", "", "sphere", {128, 128}, {0.10, 0.20}, false, {}}};
+        return {{"vase", "", "vase", 0, {128, 128}, {0.06, 0.25}, true, {}},
+                {"sphere", "", "sphere", 0, {128, 128}, {0.10, 0.20}, false, {}}};
     }
     throw UsageError("--suite " + suite, "no such suite", "take quick or table1");
 }
@@ -113,6 +120,9 @@ BenchWorld loadBenchWorld(const BenchScene& scene) {
     const std::filesystem::path file = modelFile(scene);
     loaded.model = file.empty() ? "builtin:" + scene.standIn : file.string();
     Scene model = readModel(loaded.model);
+    if (scene.triangles > 0) {
+        model = withTriangleCount(std::move(model), scene.triangles);
+    }
     const std::vector<MaterialPointer> named(model.materials.size());
     WorldScale scale;
     scale.diameterMm = kDiameterMm;

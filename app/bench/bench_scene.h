@@ -8,9 +8,8 @@
 #include <string>
 #include <vector>
 
-/// The scenes of Chen et al. 2012, Table 1, as far as they can be had: triangle counts, map sizes
-/// and scattering ranges of the paper, models from the folder that CELADON_MODELS names, else
-/// builtins.
+/// The scenes of Chen et al. 2012, Table 1: triangle counts, map sizes and scattering ranges of the
+/// paper; models from the folder that CELADON_MODELS names, else builtins.
 namespace celadon::app {
 
 /// Surface albedo and index of refraction of the scenes' materials.
@@ -21,6 +20,7 @@ struct BenchScene {
     std::string name;  ///< the paper's object
     std::string model; ///< below CELADON_MODELS
     std::string standIn;
+    std::size_t triangles; ///< the model is brought to as many (triangle_count.h); 0: its own
     glm::ivec2 mapSize;
     glm::dvec2 range;               ///< R_P, least and greatest, in bounding sphere radii
     bool hasCells;                  ///< a chessboard; else smooth noise

@@ -60,7 +60,7 @@ constexpr int kIrradianceSize = 512;
 constexpr glm::dvec2 kRange(0.05, 0.10);
 
 World worldOfRange(double factor) {
-    BenchScene scene{"vase", "", "vase", {128, 128}, kRange * factor, true, {}, {}};
+    BenchScene scene{"vase", "", "vase", 0, {128, 128}, kRange * factor, true, {}, {}};
     return loadBenchWorld(scene).world;
 }
 

@@ -3,6 +3,9 @@
 #include "app/bench/bench_scene.h"
 #include "app/bench/scaling_suite.h"
 #include "app/bench/table_report.h"
+#include "app/bench/triangle_count.h"
+#include "renderer/scene/builtin.h"
+#include "renderer/scene/weld_vertices.h"
 #include "subedit/effective_radius.h"
 #include "subedit/errors.h"
 #include "subedit/radius_map.h"
@@ -13,6 +16,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 #include <set>
 
 namespace celadon::app {
@@ -51,6 +56,63 @@ TEST(Bench, MapsSpanTheirRanges) {
             }
         }
     }
+}
+
+/// Volume of what triangles enclose, and how many of their edges are not shared by two of them.
+struct Solid {
+    double volume = 0.0;
+    std::size_t openEdges = 0;
+};
+Solid solidOf(const Mesh& mesh) {
+    const std::vector<std::uint32_t> welded = weldVertices(mesh.positions);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+    Solid solid;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const std::uint32_t* const t = &mesh.indices[i];
+        const glm::dvec3 a(mesh.positions[t[0]]);
+        solid.volume += glm::dot(a, glm::cross(glm::dvec3(mesh.positions[t[1]]),
+                                               glm::dvec3(mesh.positions[t[2]]))) /
+                        6.0;
+        for (std::size_t c = 0; c < 3; ++c) {
+            ++edges[std::minmax(welded[t[c]], welded[t[(c + 1) % 3]])];
+        }
+    }
+    for (const auto& [edge, triangles] : edges) {
+        solid.openEdges += triangles == 2 ? 0u : 1u;
+    }
+    return solid;
+}
+
+TEST(Bench, ModelsAreBroughtToTheTriangleCountsOfTheScenes) {
+    const Scene sphere = makeBuiltin("sphere");
+    const std::size_t present = sphere.meshes[0].triangleCount();
+    const Solid before = solidOf(sphere.meshes[0]);
+    ASSERT_EQ(before.openEdges, 0u);
+    EXPECT_EQ(withTriangleCount(sphere, present + present / 100).meshes[0].indices,
+              sphere.meshes[0].indices); // close enough: as it is
+    for (const std::size_t count : {present / 3, 2 * present + 10}) {
+        const Scene changed = withTriangleCount(sphere, count);
+        const Mesh& mesh = changed.meshes.at(0);
+        EXPECT_NEAR(static_cast<double>(mesh.triangleCount()), static_cast<double>(count), 1.0);
+        EXPECT_TRUE(mesh.uvs.empty());
+        const Solid after = solidOf(mesh);
+        EXPECT_EQ(after.openEdges, 0u) << count;
+        // Splitting keeps the surface; collapsing keeps its volume about as well as it can.
+        EXPECT_NEAR(after.volume, before.volume, (count > present ? 1e-6 : 2e-3) * before.volume);
+        EXPECT_EQ(withTriangleCount(sphere, count).meshes[0].positions, mesh.positions);
+    }
+}
+
+TEST(Bench, AModelThatCannotHaveSoFewTrianglesIsRefused) {
+    Scene open = makeBuiltin("sphere");
+    Mesh& mesh = open.meshes[0];
+    std::vector<glm::vec3> apart;
+    for (const std::uint32_t i : mesh.indices) { // each triangle by itself: all border
+        apart.push_back(mesh.positions[i] * (1.0f + 1e-3f * static_cast<float>(apart.size() / 3)));
+    }
+    mesh.positions = apart;
+    std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
+    EXPECT_THROW((void)withTriangleCount(open, 100), InputError);
 }
 
 /// A scene with two methods by hand.
