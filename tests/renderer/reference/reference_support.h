@@ -112,6 +112,32 @@ inline Mesh makeGrid(int across, int along, const std::function<glm::dvec3(glm::
     return mesh;
 }
 
+/// A closed box about the origin, each face a grid of one cell.
+inline Mesh makeBox(glm::dvec3 size, glm::dvec3 center = {0, 0, 0}) {
+    Mesh box;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const double side : {-1.0, 1.0}) {
+            glm::dvec3 normal(0);
+            glm::dvec3 u(0);
+            glm::dvec3 v(0);
+            normal[axis] = side;
+            u[(axis + 1) % 3] = side;
+            v[(axis + 2) % 3] = 1.0;
+            const auto first = static_cast<std::uint32_t>(box.positions.size());
+            for (const glm::dvec2 corner : {glm::dvec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
+                box.positions.emplace_back(center +
+                                           0.5 * size * (normal + corner.x * u + corner.y * v));
+                box.normals.emplace_back(normal);
+                box.uvs.emplace_back(0.5 * (corner + 1.0));
+            }
+            for (const std::uint32_t index : {0u, 1u, 2u, 0u, 2u, 3u}) {
+                box.indices.push_back(first + index);
+            }
+        }
+    }
+    return box;
+}
+
 /// Flat, facing +z, about the origin.
 inline Mesh makeSlab(double widthMm, int cells, double z = 0) {
     return makeGrid(cells, cells, [=](glm::dvec2 uv) {
