@@ -88,7 +88,7 @@ void collapseEdges(HalfEdges& mesh, std::size_t count) {
     if (decimater.initialize()) {
         decimater.decimate_to_faces(0, count);
     }
-    mesh.garbage_collection();
+    // What is gone stays in the mesh, marked: to fill its places would shuffle the rest.
 }
 
 void splitEdges(HalfEdges& mesh, std::size_t count) {
@@ -120,14 +120,16 @@ void splitEdges(HalfEdges& mesh, std::size_t count) {
 
 Scene sceneOf(const HalfEdges& mesh, const Scene& like) {
     loaders::PolygonSoup soup;
-    soup.positions.reserve(mesh.n_vertices());
+    std::vector<std::uint32_t> numbers(mesh.n_vertices());
     for (const HalfEdges::VertexHandle vertex : mesh.vertices()) {
         const HalfEdges::Point& p = mesh.point(vertex);
+        numbers[static_cast<std::size_t>(vertex.idx())] =
+            static_cast<std::uint32_t>(soup.positions.size());
         soup.positions.emplace_back(p[0], p[1], p[2]);
     }
     for (const HalfEdges::FaceHandle face : mesh.faces()) {
         for (const HalfEdges::VertexHandle vertex : mesh.fv_range(face)) {
-            soup.corners.push_back({static_cast<std::uint32_t>(vertex.idx())});
+            soup.corners.push_back({numbers[static_cast<std::size_t>(vertex.idx())]});
         }
         soup.faceEnds.push_back(static_cast<std::uint32_t>(soup.corners.size()));
     }
@@ -148,13 +150,14 @@ Scene withTriangleCount(Scene scene, std::size_t count) {
     } else {
         splitEdges(mesh, count);
     }
-    if (mesh.n_faces() > count + 1) {
-        throw InputError(scene.meshes.front().name,
-                         fmt::format("cannot be brought to {} triangles: its borders need {}",
-                                     count, mesh.n_faces()),
-                         "take a model with fewer borders");
+    Scene changed = sceneOf(mesh, scene);
+    if (const std::size_t left = triangleCount(changed); left > count + 1) {
+        throw InputError(
+            scene.meshes.front().name,
+            fmt::format("cannot be brought to {} triangles: its borders need {}", count, left),
+            "take a model with fewer borders");
     }
-    return sceneOf(mesh, scene);
+    return changed;
 }
 
 } // namespace celadon::app
