@@ -1,45 +1,11 @@
 #include "renderer/raster/triangle_raster.h"
 
 #include <algorithm>
-#include <cstdlib>
+#include <functional>
+#include <limits>
 #include <utility>
 
 namespace celadon {
-
-namespace {
-
-/// Of a sample's depth over w: what a plane may come to at the pixel's center, if not 0 or less.
-constexpr float kLeastCenterDepth = 1e-3f;
-constexpr int kNarrow = 8; ///< columns: testing each sample is then quicker than finding the span
-
-std::int64_t twiceArea(const std::array<ScreenVertex, 3>& t) {
-    return (std::int64_t{t[1].x} - t[0].x) * (std::int64_t{t[2].y} - t[0].y) -
-           (std::int64_t{t[2].x} - t[0].x) * (std::int64_t{t[1].y} - t[0].y);
-}
-
-/// Columns of a row whose samples lie inside a triangle.
-RasterRange span(const std::array<EdgeFunction, 3>& edges, RasterRange columns, std::int64_t x,
-                 std::int64_t y) {
-    for (const EdgeFunction& edge : edges) {
-        const std::int64_t first = edge.at(x + std::int64_t{columns.first} * kSubpixels, y);
-        const std::int64_t step = edge.stepAcross();
-        if (step == 0 && first < 0) {
-            return {0, -1};
-        }
-        if (step > 0 && first < 0) {
-            columns.first += static_cast<int>(
-                std::min<std::int64_t>((-first + step - 1) / step, std::int64_t{1} << 20));
-        } else if (step < 0 && first >= 0) {
-            columns.last = static_cast<int>(
-                std::min<std::int64_t>(columns.last, columns.first + first / -step));
-        } else if (step < 0) {
-            return {0, -1};
-        }
-    }
-    return columns;
-}
-
-} // namespace
 
 bool TriangleRaster::isHole(const RasterMesh& mesh, std::uint32_t triangle, glm::dvec2 ndc) const {
     // Perspective-correct: weights with which the corners, seen from the ray, cancel out.
@@ -58,124 +24,23 @@ bool TriangleRaster::isHole(const RasterMesh& mesh, std::uint32_t triangle, glm:
                                      glm::clamp(weights.z / sum, 0.0, 1.0));
 }
 
-struct TriangleRaster::Filled {
-    Filled(const RasterMesh& theMesh, std::uint32_t theTriangle, std::uint32_t theNumber,
-           const std::array<ScreenVertex, 3>& theCorners, std::int64_t theArea)
-        : mesh(theMesh),
-          corners(theCorners),
-          area(theArea),
-          triangle(theTriangle),
-          number(theNumber) {}
-
-    const RasterMesh& mesh;
-    const std::array<ScreenVertex, 3>& corners; ///< counter-clockwise
-    std::int64_t area;                          ///< twice
-    std::uint32_t triangle;                     ///< of the mesh
-    std::uint32_t number;
-    bool hasPlane = false; ///< once some sample is inside
-    DepthPlane plane;
-};
-
-void TriangleRaster::fillTriangle(RasterRange band, std::array<ScreenVertex, 3> t,
-                                  const Chunk& chunk, std::uint32_t triangle) {
-    const std::int64_t area = twiceArea(t);
-    if (area == 0) {
+void TriangleRaster::fillTriangle(SampleBand& band, const std::array<ScreenVertex, 3>& corners,
+                                  const Chunk& chunk, std::uint32_t triangle) const {
+    const std::uint32_t number = mFirstTriangle[chunk.mesh] + triangle + 1;
+    const RasterMesh& mesh = mMeshes[chunk.mesh];
+    if (!mesh.isHole) {
+        mFill(mCells, band, {corners, number, nullptr});
         return;
     }
-    if (area < 0) {
-        std::swap(t[1], t[2]);
-    }
-    Filled filled(mMeshes[chunk.mesh], triangle, mFirstTriangle[chunk.mesh] + triangle + 1, t,
-                  std::abs(area));
-    const std::array<EdgeFunction, 3> edges{EdgeFunction(t[0], t[1]), EdgeFunction(t[1], t[2]),
-                                            EdgeFunction(t[2], t[0])};
-    const std::int32_t lowX = std::min({t[0].x, t[1].x, t[2].x});
-    const std::int32_t highX = std::max({t[0].x, t[1].x, t[2].x});
-    const std::int32_t lowY = std::min({t[0].y, t[1].y, t[2].y});
-    const std::int32_t highY = std::max({t[0].y, t[1].y, t[2].y});
-    for (std::size_t p = 0; p < mPlaces.size(); ++p) {
-        const Place place = mPlaces[p];
-        const RasterRange columns = samplesBetween(lowX, highX, place.x, place.x, mSize.x);
-        RasterRange rows = samplesBetween(lowY, highY, place.y, place.y, mSize.y);
-        rows = {std::max(rows.first, band.first), std::min(rows.last, band.last)};
-        if (columns.last - columns.first < kNarrow) {
-            fillNarrow(filled, edges, columns, rows, p);
-            continue;
-        }
-        for (int row = rows.first; row <= rows.last; ++row) {
-            const RasterRange inside =
-                span(edges, columns, place.x, std::int64_t{row} * kSubpixels + place.y);
-            for (int column = inside.first; column <= inside.last; ++column) {
-                fillSample(filled, column, row, p);
-            }
-        }
-    }
+    const std::function<bool(std::int32_t, std::int32_t)> hole = [&](std::int32_t x,
+                                                                     std::int32_t y) {
+        return isHole(mesh, triangle, glm::dvec2(x, y) / glm::dvec2(mLimits.halfSize) - 1.0);
+    };
+    mFill(mCells, band, {corners, number, &hole});
 }
 
-void TriangleRaster::fillNarrow(Filled& filled, const std::array<EdgeFunction, 3>& edges,
-                                RasterRange columns, RasterRange rows, std::size_t p) {
-    const std::int64_t x = std::int64_t{columns.first} * kSubpixels + mPlaces[p].x;
-    const std::int64_t y = std::int64_t{rows.first} * kSubpixels + mPlaces[p].y;
-    std::int64_t left0 = edges[0].at(x, y);
-    std::int64_t left1 = edges[1].at(x, y);
-    std::int64_t left2 = edges[2].at(x, y);
-    for (int row = rows.first; row <= rows.last; ++row) {
-        std::int64_t e0 = left0;
-        std::int64_t e1 = left1;
-        std::int64_t e2 = left2;
-        for (int column = columns.first; column <= columns.last; ++column) {
-            if ((e0 | e1 | e2) >= 0) {
-                fillSample(filled, column, row, p);
-            }
-            e0 += edges[0].stepAcross();
-            e1 += edges[1].stepAcross();
-            e2 += edges[2].stepAcross();
-        }
-        left0 += edges[0].stepUp();
-        left1 += edges[1].stepUp();
-        left2 += edges[2].stepUp();
-    }
-}
-
-void TriangleRaster::fillSample(Filled& filled, int column, int row, std::size_t p) {
-    if (!filled.hasPlane) {
-        filled.plane = DepthPlane(filled.corners, filled.area);
-        filled.hasPlane = true;
-    }
-    const DepthPlane& plane = filled.plane;
-    const std::int32_t left = column * kSubpixels;
-    const std::int32_t low = row * kSubpixels;
-    const std::int32_t x = left + mPlaces[p].x;
-    const std::int32_t y = low + mPlaces[p].y;
-    const std::size_t i = (p * static_cast<std::size_t>(mSize.y) + static_cast<std::size_t>(row)) *
-                              static_cast<std::size_t>(mSize.x) +
-                          static_cast<std::size_t>(column);
-    const float z = plane.within(x, y);
-    if (!(z > mDepths[i])) {
-        return;
-    }
-    if (filled.mesh.isHole && isHole(filled.mesh, filled.triangle,
-                                     glm::dvec2(x, y) / glm::dvec2(mLimits.halfSize) - 1.0)) {
-        return;
-    }
-    mDepths[i] = z;
-    mTriangles[i] = filled.number;
-    if (mHasPlaces) {
-        mCenterDepths[i] =
-            std::max(plane.at(left + kSubpixels / 2, low + kSubpixels / 2), kLeastCenterDepth * z);
-    }
-}
-
-void TriangleRaster::fill(int index) {
-    const RasterRange band{index * kBandRows, std::min((index + 1) * kBandRows, mSize.y) - 1};
-    for (std::size_t p = 0; p < mPlaces.size(); ++p) {
-        const auto width = static_cast<std::size_t>(mSize.x);
-        const std::size_t begin =
-            (p * static_cast<std::size_t>(mSize.y) + static_cast<std::size_t>(band.first)) * width;
-        const std::size_t count = static_cast<std::size_t>(band.last - band.first + 1) * width;
-        std::fill_n(mTriangles.begin() + static_cast<std::ptrdiff_t>(begin), count, 0u);
-        std::fill_n(mDepths.begin() + static_cast<std::ptrdiff_t>(begin), count, 0.0f);
-    }
+void TriangleRaster::fill(int index, SampleBand& band) {
+    band.rows = {index * kBandRows, std::min((index + 1) * kBandRows, mSize.y) - 1};
     for (std::size_t c = 0; c < mChunkCount; ++c) {
         const Chunk& chunk = mChunks[c];
         const std::uint32_t* const corners = mMeshes[chunk.mesh].corners.data();
@@ -190,6 +55,62 @@ void TriangleRaster::fill(int index) {
             }
         }
     }
+    for (int row = band.rows.first; row <= band.rows.last; ++row) {
+        takeRow(band, row);
+    }
+}
+
+void TriangleRaster::prepareBand(SampleBand& band) const {
+    const auto cells =
+        static_cast<std::size_t>(mCells.columns()) * static_cast<std::size_t>(kBandRows);
+    const std::size_t samples = cells * mCells.groups() * SampleCells::kLanes;
+    if (band.triangles.size() != samples) { // else takeRow() left zeros
+        band.triangles.assign(samples, 0u);
+        band.depths.assign(samples, 0.0f);
+        band.centerDepths.resize(mHasPlaces ? samples : 0);
+    }
+    band.touched.assign(kBandRows, {std::numeric_limits<int>::max(), -1});
+}
+
+void TriangleRaster::takeRow(SampleBand& band, int row) {
+    const auto r = static_cast<std::size_t>(row - band.rows.first);
+    RasterRange& touched = band.touched[r];
+    const auto lanes = mCells.groups() * SampleCells::kLanes;
+    const auto width = static_cast<std::size_t>(mSize.x);
+    const bool isEmpty = touched.first > touched.last;
+    const std::size_t first = isEmpty ? 0 : static_cast<std::size_t>(touched.first);
+    const std::size_t last = isEmpty ? 0 : static_cast<std::size_t>(touched.last) + 1;
+    const std::size_t from = r * static_cast<std::size_t>(mCells.columns()) * lanes;
+    // A cell of several pixels has its samples in their order; of one, those of its places.
+    const auto pixelsOfCell = static_cast<std::size_t>(mCells.width());
+    const std::size_t stride = lanes / pixelsOfCell;
+    const std::size_t begin = std::min(first * pixelsOfCell, width);
+    const std::size_t end = std::min(last * pixelsOfCell, width);
+    for (std::size_t place = 0; place < mPlaces.size(); ++place) {
+        const std::size_t to =
+            (place * static_cast<std::size_t>(mSize.y) + static_cast<std::size_t>(row)) * width;
+        const auto take = [&](const auto& source, auto& target) {
+            const auto* const samples = source.data() + from + place;
+            auto* const pixels = target.data() + to;
+            for (std::size_t x = begin; x < end; ++x) {
+                pixels[x] = samples[x * stride];
+            }
+        };
+        take(band.triangles, mTriangles);
+        take(band.depths, mDepths);
+        if (mHasPlaces) {
+            take(band.centerDepths, mCenterDepths);
+        }
+        for (const auto& [low, high] : {std::pair(std::size_t{0}, begin), std::pair(end, width)}) {
+            std::fill(mTriangles.data() + to + low, mTriangles.data() + to + high, 0u);
+            std::fill(mDepths.data() + to + low, mDepths.data() + to + high, 0.0f);
+        }
+    }
+    std::fill(band.triangles.data() + from + first * lanes,
+              band.triangles.data() + from + last * lanes, 0u);
+    std::fill(band.depths.data() + from + first * lanes, band.depths.data() + from + last * lanes,
+              0.0f);
+    touched = {std::numeric_limits<int>::max(), -1};
 }
 
 } // namespace celadon

@@ -43,11 +43,7 @@ void TriangleRaster::prepare(std::span<const RasterMesh> meshes, const RasterVie
     if (!mHasPlaces) {
         mPlaces.push_back({kSubpixels / 2, kSubpixels / 2});
     }
-    mLeast = mGreatest = mPlaces.front();
-    for (const Place place : mPlaces) {
-        mLeast = {std::min(mLeast.x, place.x), std::min(mLeast.y, place.y)};
-        mGreatest = {std::max(mGreatest.x, place.x), std::max(mGreatest.y, place.y)};
-    }
+    mCells = SampleCells(mPlaces, mSize);
     const std::size_t samples = mPlaces.size() * pixels();
     growTo(samples, mTriangles);
     growTo(samples, mDepths);
@@ -116,16 +112,11 @@ void TriangleRaster::makeChunks() {
 
 void TriangleRaster::sortInto(Chunk& chunk, const std::array<ScreenVertex, 3>& t,
                               std::uint32_t entry) const {
-    const RasterRange columns =
-        samplesBetween(std::min({t[0].x, t[1].x, t[2].x}), std::max({t[0].x, t[1].x, t[2].x}),
-                       mLeast.x, mGreatest.x, mSize.x);
-    const RasterRange rows =
-        samplesBetween(std::min({t[0].y, t[1].y, t[2].y}), std::max({t[0].y, t[1].y, t[2].y}),
-                       mLeast.y, mGreatest.y, mSize.y);
-    if (columns.first > columns.last || rows.first > rows.last) {
+    const SampleCells::Int4 pixels = mCells.pixelsOf(SampleCells::boxOf(t));
+    if (pixels[0] > pixels[2] || pixels[1] > pixels[3]) {
         return;
     }
-    for (int band = rows.first / kBandRows; band <= rows.last / kBandRows; ++band) {
+    for (int band = pixels[1] / kBandRows; band <= pixels[3] / kBandRows; ++band) {
         chunk.bands[static_cast<std::size_t>(band)].push_back(entry);
     }
 }
@@ -200,7 +191,11 @@ void TriangleRaster::draw(std::span<const RasterMesh> meshes, const RasterView& 
     tbb::parallel_for(std::size_t{0}, mChunkCount,
                       [this](std::size_t chunk) { sort(mChunks[chunk]); });
     const int bands = (mSize.y + kBandRows - 1) / kBandRows;
-    tbb::parallel_for(0, bands, [this](int band) { fill(band); });
+    tbb::parallel_for(0, bands, [this](int index) {
+        SampleBand& band = mBands.local();
+        prepareBand(band);
+        fill(index, band);
+    });
     mMeshes = {};
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 
-#include "renderer/raster/triangle_setup.h"
+#include "renderer/raster/sample_cells.h"
 
 #include <glm/mat4x4.hpp>
+#include <oneapi/tbb/enumerable_thread_specific.h>
 
 #include <array>
 #include <cstddef>
@@ -70,11 +71,7 @@ private:
         std::vector<std::array<ScreenVertex, 3>> parts; ///< of clipped triangles
         std::vector<std::uint32_t> wholes;              ///< triangles that the parts belong to
     };
-    struct Place {
-        std::int32_t x, y; ///< from the lower left corner of a pixel, in subpixels
-    };
-    struct Filled;
-    static constexpr int kBandRows = 32;
+    static constexpr int kBandRows = 16;
     static constexpr std::uint32_t kPart = 0x8000'0000u; ///< an entry of a band
 
     void prepare(std::span<const RasterMesh> meshes, const RasterView& view);
@@ -84,12 +81,11 @@ private:
     void sortInto(Chunk& chunk, const std::array<ScreenVertex, 3>& corners,
                   std::uint32_t entry) const;
     void clip(Chunk& chunk, std::uint32_t triangle) const;
-    void fill(int band); ///< this and the following: triangle_fill.cpp
-    void fillTriangle(RasterRange band, std::array<ScreenVertex, 3> t, const Chunk& chunk,
-                      std::uint32_t triangle);
-    void fillNarrow(Filled& filled, const std::array<EdgeFunction, 3>& edges, RasterRange columns,
-                    RasterRange rows, std::size_t place);
-    void fillSample(Filled& filled, int column, int row, std::size_t place);
+    void prepareBand(SampleBand& band) const; ///< this and the following: triangle_fill.cpp
+    void fill(int index, SampleBand& band);
+    void fillTriangle(SampleBand& band, const std::array<ScreenVertex, 3>& corners,
+                      const Chunk& chunk, std::uint32_t triangle) const;
+    void takeRow(SampleBand& band, int row);
     [[nodiscard]] bool isHole(const RasterMesh& mesh, std::uint32_t triangle, glm::dvec2 ndc) const;
     [[nodiscard]] glm::vec4 toClip(const float* position) const;
     [[nodiscard]] std::array<glm::vec4, 3> clipCorners(const RasterMesh& mesh,
@@ -100,8 +96,10 @@ private:
     glm::ivec2 mSize{0};
     bool mHasPlaces = false;
     ClipLimits mLimits;
-    std::vector<Place> mPlaces;
-    Place mLeast{}, mGreatest{}; ///< of the places
+    std::vector<SamplePlace> mPlaces;
+    SampleCells mCells;
+    FillFunction mFill = chooseFillFunction();
+    tbb::enumerable_thread_specific<SampleBand> mBands;
     std::vector<std::size_t> mFirstVertex;
     std::vector<std::uint32_t> mFirstTriangle; ///< of each mesh, and how many there are
     std::vector<ScreenVertex> mScreen;

@@ -39,11 +39,11 @@ private:
 
 /// Of depth over the picture.
 struct DepthPlane {
-    double origin, across, up; ///< depth at vertex 0 and its change a subpixel
-    std::int32_t x, y;         ///< vertex 0
-    float least, greatest;
+    double origin = 0.0, across = 0.0, up = 0.0; ///< depth at vertex 0, its change a subpixel
+    std::int32_t x = 0, y = 0;                   ///< vertex 0
+    float least = 0.0f, greatest = 0.0f;         ///< of what the triangle has, up to the near plane
 
-    DepthPlane() {} ///< nothing is set: most small triangles need none
+    DepthPlane() = default; ///< most small triangles need none
     DepthPlane(const std::array<ScreenVertex, 3>& t, std::int64_t area)
         : origin(static_cast<double>(t[0].z)),
           x(t[0].x),
@@ -57,23 +57,9 @@ struct DepthPlane {
         up = (z2 * (t[1].x - x) - z1 * (t[2].x - x)) * scale;
     }
 
-    [[nodiscard]] float at(std::int32_t px, std::int32_t py) const {
-        return static_cast<float>(origin + across * (px - x) + up * (py - y));
-    }
-    /// Clamped to what the triangle has, and to the near plane.
-    [[nodiscard]] float within(std::int32_t px, std::int32_t py) const {
-        return glm::clamp(at(px, py), least, greatest);
+    [[nodiscard]] double at(std::int32_t px, std::int32_t py) const {
+        return origin + across * (px - x) + up * (py - y);
     }
 };
-
-/// Rows or columns whose samples, at places between two within a pixel, lie between two
-/// coordinates.
-inline RasterRange samplesBetween(std::int32_t low, std::int32_t high, std::int32_t leastPlace,
-                                  std::int32_t greatestPlace, int size) {
-    const auto ceiling = [](std::int32_t x) { return (x + kSubpixels - 1) >> 8; };
-    static_assert(kSubpixels == 1 << 8);
-    return {std::max(ceiling(low - greatestPlace), 0),
-            std::min((high - leastPlace) >> 8, size - 1)};
-}
 
 } // namespace celadon
