@@ -2,8 +2,8 @@
 // splatting level. It walks the tree of nodes from the top down, keeps those that have weight for some pixel
 // of the tile, and adds them up, SLICES of them side by side. What its pixels' profiles are, and those of the
 // samples at hand, is read once, into shared memory: no pair touches a map. Nothing is counted, sorted or sent
-// to the CPU, and there is no list that could overflow: the stack of nodes to visit is kept short by taking
-// fewer nodes from it as it fills. Samples, rings and kernel are those of the raster path (include/).
+// to the CPU, and there is no list that could overflow: of what is free on the stack of nodes to visit, each level
+// of the tree gets its part. Samples, rings and kernel are those of the raster path (include/).
 //   SLICES      samples added up side by side
 //   BATCH       samples at hand
 //   KNOTS       of the finest profile; left out: profiles do not fit into shared memory, and are read per pair
@@ -20,7 +20,8 @@ const int kReserve = 64; // a node taken alone leaves at most three more per lev
 
 layout(local_size_x = kPixels, local_size_y = SLICES) in;
 
-layout(location = 0) uniform ivec4 request; // splatting level, last level of the tree, its columns and rows
+layout(location = 0) uniform ivec4 request; // splatting level; level of the roots, their columns and rows
+layout(location = 1) uniform ivec2 firstRoot;
 
 layout(binding = 24) uniform sampler2D pixelPositions;
 layout(binding = 25) uniform sampler2D pixelSurfaces;
@@ -329,14 +330,17 @@ void main() {
         } else if (exhausted) {
             done = true;
         } else {
+            // A node taken leaves three more. Were all that is free given to one level, those below it would
+            // have to go one by one.
             bool fromStack = size > 0;
-            int room = max((kStack - kReserve - size) / 3, 1);
-            int taken = min(min(fromStack ? size : roots - nextRoot, kThreads), fromStack ? room : room / 2);
+            int level = fromStack ? levelOf(stack[size - 1]) : request.y;
+            int room = max((kStack - kReserve - size) / (3 * (level + 1)), 1);
+            int taken = min(min(fromStack ? size : roots - nextRoot, kThreads), room);
             uint code = 0u;
             if (thread < taken) {
                 int root = nextRoot + thread;
                 code = fromStack ? stack[size - 1 - thread]
-                                   : packNode(ivec2(root % request.z, root / request.z), request.y);
+                                   : packNode(firstRoot + ivec2(root % request.z, root / request.z), request.y);
             }
             if (!fromStack) {
                 nextRoot += taken;

@@ -45,6 +45,9 @@ SplattingSolver::SplattingSolver(const gl::ShaderLibrary& shaders,
       mLightViews(shaders, LightViews::Target::Scattering, settings.irradianceSize),
       mAccumulation(shaders, materials.count(), settings.scheme, view),
       mSolveBlock("solve", sizeof(blocks::SolveBlock), gl::BufferUse::Update) {
+    if (settings.scheme == Scheme::Hierarchical) {
+        mSettings.energy = 1.0; // nothing is cut, so nothing is given back
+    }
     if (settings.backend != SplatBackendKind::Auto) {
         makeBackend();
     }

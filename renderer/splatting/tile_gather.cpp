@@ -1,5 +1,6 @@
 #include "renderer/splatting/tile_gather.h"
 
+#include "renderer/gl/context.h"
 #include "renderer/gl/debug.h"
 
 #include <algorithm>
@@ -16,6 +17,9 @@ constexpr int kBytesBesideProfiles = 9216; ///< stack, found nodes, samples at h
 constexpr int kBytesPerKnot = 8;
 
 constexpr int kMostRootsAcross = 8;
+/// Software drivers end the loops of a shader after 65,535 rounds in all: where every texel may be
+/// a sample, a dispatch has the 64 x 64 below a node of this level.
+constexpr int kPartLevel = 6;
 
 /// Levels until few roots are left, at least those of the buffer.
 int treeLevels(const IrradianceBuffer& buffer) {
@@ -62,6 +66,10 @@ TileGather::TileGather(const gl::ShaderLibrary& shaders, std::span<const Materia
         defines.push_back({"KNOTS", std::to_string(knots)});
     }
     mGather = gl::Program("tile gather", shaders, {"tile_gather.comp"}, defines);
+    const gl::Context* const context = gl::Context::current();
+    mInParts =
+        context != nullptr && context->isSoftware() &&
+        !(settings.scheme == Scheme::Hierarchical && settings.adaptive && settings.multiresolution);
 }
 
 void TileGather::clear() {
@@ -112,11 +120,19 @@ void TileGather::gather(int splattingLevel, const SplattingBuffer& view, const G
     }
     mExitance.bindImage(0, splattingLevel, GL_READ_WRITE);
     const int top = mTree.levels() - 1;
-    mGather.use();
-    mGather.set(0, glm::ivec4(splattingLevel, top, mTree.size2d(top)));
+    const int rootLevel = mInParts ? std::min(kPartLevel, top) : top;
+    const glm::ivec2 roots = mTree.size2d(rootLevel);
+    const glm::ivec2 part = mInParts ? glm::ivec2(1) : roots;
     const glm::ivec2 tiles = (mExitance.size2d(splattingLevel) + kTilePx - 1) / kTilePx;
-    glDispatchCompute(static_cast<GLuint>(tiles.x), static_cast<GLuint>(tiles.y), 1);
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+    mGather.use();
+    mGather.set(0, glm::ivec4(splattingLevel, rootLevel, part));
+    for (int y = 0; y < roots.y; y += part.y) {
+        for (int x = 0; x < roots.x; x += part.x) {
+            mGather.set(1, glm::ivec2(x, y));
+            glDispatchCompute(static_cast<GLuint>(tiles.x), static_cast<GLuint>(tiles.y), 1);
+            glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+        }
+    }
 }
 
 } // namespace celadon

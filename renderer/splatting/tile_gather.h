@@ -39,6 +39,7 @@ private:
     gl::Texture mFits; ///< R32F, paper: 1 where a node is fit
     gl::Program mBuild, mGather;
     bool mKeepsProfiles = true;
+    bool mInParts = false; ///< each dispatch has a part of the tree
 };
 
 } // namespace celadon

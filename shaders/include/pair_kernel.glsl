@@ -2,7 +2,8 @@
 // sqrt(P_xo P_xi). The patch has covariance C; along the offset to the pixel it blurs the kernel by q, across
 // it lengthens the distance to d' (DESIGN 3.1: a sample is a patch, not a point). The mean over the disc of
 // radius sqrt(2 q) about d' is taken at three distances, as an integral over the distance where the disc is wide
-// for the profile, at one distance where it is narrow. Paired with renderer/gather/pair_kernel.inl.
+// for the profile, at two where it is narrow: d' + q / (4 d') -+ sqrt(q / 2), right to the second order, which
+// pair_kernel.inl of renderer/gather, its pair, has from the slope at one.
 
 // sqrt(P_xo P_xi) of the pair in question at distance r; whoever includes this defines it.
 vec3 pairProfile(float r);
@@ -45,7 +46,7 @@ vec3 pairKernel(vec3 offset, float d2, float variance, vec3 diagonal, vec3 offDi
     bool steep = slope * blur > 4.0;
     int inner = closest < discRadius ? (steep ? 6 : 4) : 0;
     int outer = steep ? 10 : 8;
-    int count = narrow ? 1 : (wide ? inner + outer : 3);
+    int count = narrow ? 2 : (wide ? inner + outer : 3);
     vec3 kernel = vec3(0.0);
     float total = 0.0;
     for (int i = 0; i < count; ++i) {
@@ -58,7 +59,7 @@ vec3 pairKernel(vec3 offset, float d2, float variance, vec3 diagonal, vec3 offDi
         } else if (count == 3) {
             r2 = closest2 + 0.98 * q + float(i - 1) * 1.7320508 * blur * closest;
         } else {
-            r2 = closest2 + q;
+            r2 = closest2 + q + (float(i) * 2.0 - 1.0) * 1.41421356 * blur * closest;
         }
         float r = sqrt(max(r2, 0.0));
         vec3 value = pairProfile(r);

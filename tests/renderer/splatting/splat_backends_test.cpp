@@ -69,6 +69,8 @@ protected:
 };
 
 class AutoBackend : public test::GlTest {};
+class ManySamples : public test::GlTest {};
+class EnergyOfHierarchicalScheme : public test::GlTest {};
 
 TEST_P(SplatBackends, CpuAndTiledAreRaster) {
     const BackendCase& given = GetParam();
@@ -103,6 +105,33 @@ constexpr BackendCase kCases[] = {
 
 INSTANTIATE_TEST_SUITE_P(Cases, SplatBackends, testing::ValuesIn(kCases),
                          [](const auto& instance) { return instance.param.name; });
+
+// A tile that a hundred thousand samples reach, each a small disc beside its distance: no driver's
+// limit on loops leaves any out, and the discs are blurred alike.
+TEST_F(ManySamples, OfATileCountAll) {
+    constexpr glm::ivec2 kTiles(16, 8);
+    const World world = test::makeWorld("builtin:sphere", test::materialNamed("long"));
+    const Camera camera = test::defaultCamera(world, kTiles);
+    const std::array lights{test::frontLight()};
+    FrameSettings settings = test::smallFrame(kTiles, 384, Scheme::Paper);
+    settings.splatting.adaptive = settings.splatting.multiresolution = false;
+    settings.statistics = true;
+    const auto render = [&](SplatBackendKind backend) {
+        settings.splatting.backend = backend;
+        return test::renderFrame(context(), world, settings, camera, lights);
+    };
+    const RenderedFrame cpu = render(SplatBackendKind::Cpu);
+    const RenderedFrame tiled = render(SplatBackendKind::Tiled);
+    const ValueErrors errors = test::compareExitance(tiled.image, cpu.image);
+    fmt::print("[ measured ] relative RMSE {:.2g}, mean ratio - 1 {:.2g}, pairs {} and {}\n",
+               errors.relativeRmse, errors.meanRatio - 1.0, tiled.stats.samples.pairs,
+               cpu.stats.samples.pairs);
+    EXPECT_GT(cpu.stats.samples.selected[0], 100'000u);
+    EXPECT_LT(errors.relativeRmse, test::kBackends);
+    EXPECT_NEAR(static_cast<double>(tiled.stats.samples.pairs),
+                static_cast<double>(cpu.stats.samples.pairs),
+                1e-3 * static_cast<double>(cpu.stats.samples.pairs));
+}
 
 // What a GPU does in its first frame: measures, stays with the faster, and means the same.
 TEST_F(AutoBackend, StaysWithWhatItMeasured) {
@@ -142,6 +171,22 @@ TEST_F(AutoBackend, StaysWithWhatItMeasured) {
     SplattingSolver next = make(SplatBackendKind::Auto);
     static_cast<void>(solve(next));
     EXPECT_EQ(next.backend(), measured.backend());
+}
+
+// The hierarchical scheme cuts nothing, so it must not give anything back either.
+TEST_F(EnergyOfHierarchicalScheme, IsAll) {
+    const World world = test::makeWorld("builtin:sphere", test::materialNamed("chessboard"));
+    const Camera camera = test::defaultCamera(world, kPicture);
+    const std::array lights{test::frontLight()};
+    FrameSettings settings = test::smallFrame(kPicture, 64, Scheme::Hierarchical);
+    for (const SplatBackendKind backend : {SplatBackendKind::Cpu, SplatBackendKind::Tiled}) {
+        settings.splatting.backend = backend;
+        settings.splatting.energy = 1.0;
+        const FloatImage all = test::renderFrame(context(), world, settings, camera, lights).image;
+        settings.splatting.energy = 0.8;
+        const FloatImage cut = test::renderFrame(context(), world, settings, camera, lights).image;
+        EXPECT_LT(test::compareExitance(cut, all).relativeRmse, 1e-6);
+    }
 }
 
 } // namespace
