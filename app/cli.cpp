@@ -104,23 +104,29 @@ std::vector<std::string> commandNames(const std::vector<Command>& commands) {
 
 /// The first word that nothing took, if any, becomes an error that names it.
 void refuseLeftOver(const CLI::App& app, const std::vector<Command>& subcommands) {
-    const std::vector<std::string> rest = app.remaining();
+    std::vector<std::string> rest = app.remaining();
+    // After "--", which CLI11 leaves over as well, no word is an option or a command.
+    const auto marker = std::find(rest.begin(), rest.end(), "--");
+    const bool isMarked = marker != rest.end();
+    const auto plain = isMarked ? rest.erase(marker) : marker;
     if (rest.empty()) {
         return;
     }
     // An unknown option explains the words after it better than the other way round.
-    const auto option = std::find_if(rest.begin(), rest.end(), [](const std::string& word) {
+    const auto found = std::find_if(rest.begin(), plain, [](const std::string& word) {
         return word.starts_with('-') && word != "-";
     });
-    const bool isCommand = !subcommands.empty() && option == rest.end();
-    const std::string full = option != rest.end() ? *option : rest.front();
-    const std::string word = option != rest.end() ? full.substr(0, full.find('=')) : full;
+    const bool isOption = found != plain;
+    const bool isPlain = isMarked && !isOption;
+    const bool isCommand = !subcommands.empty() && !isOption && !isPlain;
+    const std::string full = isOption ? *found : rest.front();
+    const std::string word = isOption ? full.substr(0, full.find('=')) : full;
     const std::string near =
-        closest(word, isCommand ? commandNames(subcommands) : optionNames(app));
+        isPlain ? "" : closest(word, isCommand ? commandNames(subcommands) : optionNames(app));
     const std::string suggestion = near.empty() ? "" : fmt::format("did you mean '{}'? ", near);
-    const char* what = option != rest.end() ? "unknown option"
-                       : isCommand          ? "unknown command"
-                                            : "unexpected argument";
+    const char* what = isOption    ? "unknown option"
+                       : isCommand ? "unknown command"
+                                   : "unexpected argument";
     throw UsageError(fmt::format("'{}'", word), what, suggestion + helpRemedy(app));
 }
 

@@ -2,6 +2,7 @@
 
 #include "app/comparison.h"
 #include "app/log.h"
+#include "app/overwriting.h"
 #include "renderer/output/atomic_file.h"
 #include "renderer/output/image_io.h"
 #include "subedit/errors.h"
@@ -161,15 +162,19 @@ void checkCompareOptions(const CompareOptions& options) {
         throw UsageError("compare", "two pictures are needed",
                          "write celadon compare A B, B being the reference");
     }
+    std::vector<NamedFile> outputs;
     if (options.heatMap) {
         if (imageFormat(*options.heatMap) == ImageFormat::Exr) {
             throw UsageError("--heatmap", "is a picture to look at", "choose .png, .jpg or .tif");
         }
         checkWritable(*options.heatMap);
+        outputs.push_back({"--heatmap", *options.heatMap});
     }
     if (options.output) {
         checkWritable(*options.output);
+        outputs.push_back({"--output", *options.output});
     }
+    refuseOverwriting(outputs, {{"A", options.a}, {"B", options.b}});
 }
 
 void compare(const CompareOptions& options) {
@@ -207,8 +212,7 @@ Command addCompareCommand(CLI::App& root) {
               [&o](const Argument& a) { o.settings.layer = parseText(a); });
     addRepeatable(*command, "--metric",
                   {what, "NAME[,NAME...]",
-                   "rmse, relative-rmse, psnr, ssim, flip, flip-hdr, mean-ratio, mean, max, p50, "
-                   "p95, p99, alpha-rmse or all; default: all but flip-hdr, which is slow"},
+                   metricWords() + " or all; default: all but flip-hdr, which is slow"},
                   [&o](const Argument& a) { takeMetrics(o, a); });
     addOption(*command, "--exposure",
               {what, "EV", "Shows linear pictures to ssim and flip at 2^EV; default 0"},

@@ -27,7 +27,7 @@ constexpr const char* kFirstMaterial = "yellow_wax";
 struct EditOptions {
     RenderOptions scene; ///< model, material, scale, view, lights
     ui::EditorOptions editor;
-    double exposureEv = 0.0;
+    std::optional<double> exposureEv;
     std::optional<std::filesystem::path> trace;
 };
 
@@ -82,7 +82,8 @@ void addWindow(CLI::App& app, EditOptions& o) {
               [&e](const Argument& a) {
                   e.finest = static_cast<celadon::Quality>(parseChoice(a, kQualities));
               });
-    addOption(app, "--exposure", {group, "EV", "Brightness in stops; default 0"},
+    addOption(app, "--exposure",
+              {group, "EV", "Brightness in stops; default 0, or what fits the lights of the model"},
               takeNumber(o.exposureEv, {-20.0, 20.0, false}));
     addFlag(app, "--view-only", group, "Nothing can be painted", e.viewOnly);
     addFlag(app, "--watch", group, "Opens the model and the material again when their files change",
@@ -172,7 +173,9 @@ void edit(EditOptions o) {
         motion.seconds = scene.timeSeconds.value_or(0.0);
         session.setMotion(std::move(motion));
         session.markDeformersSaved();
-        session.view.exposureEv = static_cast<float>(exposure);
+        if (exposure || !scene.lights.empty()) {
+            session.view.exposureEv = static_cast<float>(exposure.value_or(0.0));
+        }
         session.touchPicture();
     };
     std::optional<EditTrace> trace;

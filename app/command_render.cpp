@@ -1,7 +1,7 @@
 #include "app/command_render.h"
 
-#include "app/frame_pattern.h"
 #include "app/log.h"
+#include "app/overwriting.h"
 #include "app/progress.h"
 #include "app/render_motion.h"
 #include "app/render_scene.h"
@@ -14,23 +14,67 @@
 #include "renderer/scene/camera.h"
 #include "subedit/errors.h"
 #include "subedit/map/range_table_file.h"
+#include "subedit/map/shipped_materials.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace celadon::app {
 namespace {
 
+/// The files of a sequence are poses already: their animations wait to be asked for.
+MotionRequest motionOf(const RenderOptions& options) {
+    return {options.animation, options.timeSeconds, options.deformations,
+            options.frames && !options.sequence};
+}
+
+/// What is read and written in a frame: nothing may be written over something else.
+void checkFilesOfFrame(const RenderOptions& options, int frame) {
+    std::vector<NamedFile> outputs{{"--output", outputOfFrame(options, frame)}};
+    if (options.stats) {
+        outputs.push_back({"--stats", *options.stats});
+    }
+    std::vector<NamedFile> inputs{{"MODEL", modelOfFrame(options, frame)}};
+    if (options.material) {
+        inputs.push_back({"--material", subedit::findMaterial(materialOfFrame(options, frame))});
+    }
+    if (options.materialTo) {
+        inputs.push_back({"--material-to", subedit::findMaterial(*options.materialTo)});
+    }
+    if (options.environment) {
+        inputs.push_back({"--environment", *options.environment});
+    }
+    if (options.table) {
+        inputs.push_back({"--table", *options.table});
+    }
+    for (const std::string& deformation : options.deformations) {
+        inputs.push_back({"--deform", deformation});
+    }
+    refuseOverwriting(outputs, inputs);
+}
+
 /// Outputs that cannot be written are refused before the work, not after.
 void checkOutputs(const RenderOptions& options) {
-    checkWritable(outputOfFrame(options, options.frames ? options.frames->first : 0));
+    const FrameRange frames = options.frames.value_or(FrameRange{});
+    for (int frame = frames.first; frame <= frames.last; ++frame) {
+        checkFilesOfFrame(options, frame);
+    }
+    checkWritable(outputOfFrame(options, frames.first));
     if (options.stats) {
         checkWritable(*options.stats);
+    }
+}
+
+void warnOfIdleOptions(const RenderOptions& options) {
+    if (const std::vector<std::string> idle = idleOptions(options); !idle.empty()) {
+        log::warning("{}: of no effect without --scheme paper", fmt::join(idle, ", "));
     }
 }
 
@@ -201,8 +245,7 @@ public:
           mEnvironment(environment),
           mWorld(std::move(world)),
           mRestBounds{mWorld.scatteringSphere, mWorld.sceneSphere},
-          mMotion(
-              makeMotion(mWorld, {options.animation, options.timeSeconds, options.deformations})),
+          mMotion(makeMotion(mWorld, motionOf(options))),
           mTimer(context) {
         for (const std::string& warning : mMotion.warnings()) {
             log::warning("{}", warning);
@@ -332,10 +375,10 @@ void render(const RenderOptions& options) {
 
     World first = readWorld(options, frames.first); // bad input is said before GL starts
     const Environment environment = environmentOf(options);
-    static_cast<void>(
-        makeMotion(first, {options.animation, options.timeSeconds, options.deformations}));
+    static_cast<void>(makeMotion(first, motionOf(options)));
     const std::unique_ptr<gl::Context> context = gl::createContext(options.context);
     log::info("context {}: {}", context->description(), context->renderer());
+    warnOfIdleOptions(options);
     RenderStats stats = statsHead(options, settings, *context);
     auto maker =
         std::make_unique<FrameMaker>(options, settings, *context, environment, std::move(first));

@@ -109,16 +109,27 @@ const char* metricName(Metric metric) {
         ->name;
 }
 
+std::string metricWords() {
+    std::string words;
+    for (const MetricEntry& entry : kMetrics) {
+        words += words.empty() ? "" : ", ";
+        for (const char c : std::string_view(entry.name)) {
+            const bool isCapital = c >= 'A' && c <= 'Z';
+            words += isCapital ? fmt::format("-{}", static_cast<char>(c - 'A' + 'a'))
+                               : std::string(1, c);
+        }
+    }
+    return words;
+}
+
 Metric parseMetric(std::string_view word) {
-    std::vector<std::string_view> names;
     for (const MetricEntry& entry : kMetrics) {
         if (plain(entry.name) == plain(word)) {
             return entry.metric;
         }
-        names.emplace_back(entry.name);
     }
     throw UsageError(fmt::format("'{}'", word), "is no metric",
-                     fmt::format("choose {}", fmt::join(names, ", ")));
+                     fmt::format("choose {}", metricWords()));
 }
 
 std::span<const Metric> allMetrics() {

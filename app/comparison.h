@@ -32,6 +32,8 @@ enum class Metric {
 
 /// As in JSON: "relativeRmse".
 [[nodiscard]] const char* metricName(Metric metric);
+/// As a user writes them, in one line: "rmse, relative-rmse, ...".
+[[nodiscard]] std::string metricWords();
 /// Any case, with or without '-' and '_': "relative-rmse". @throws UsageError listing all
 [[nodiscard]] Metric parseMetric(std::string_view word);
 /// All but the slow flipHdr.

@@ -1,6 +1,7 @@
 #include "app/command_info.h"
 #include "app/describe_material.h"
 #include "app/log.h"
+#include "app/overwriting.h"
 #include "app/render_scene.h"
 #include "renderer/output/atomic_file.h"
 #include "renderer/scene/atlas.h"
@@ -14,7 +15,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <system_error>
 #include <vector>
 
 namespace celadon::app {
@@ -174,10 +174,7 @@ void describeFile(const InfoOptions& options) {
             throw UsageError(option,
                              fmt::format("needs a model, and '{}' is a material", options.file));
         }
-        std::error_code ignored;
-        if (std::filesystem::equivalent(options.file, output, ignored)) {
-            throw UsageError(option, "is the model itself", "choose another name");
-        }
+        refuseOverwriting({{option, output}}, {{"the model", options.file}});
     };
     if (options.writeAtlas) {
         checkOutput("--write-atlas", *options.writeAtlas);

@@ -35,7 +35,7 @@ Motion makeMotion(const World& rest, const MotionRequest& request) {
     }
     if (request.animation) {
         motion.selectAnimation(findAnimation(rest.rig.get(), *request.animation));
-    } else if (request.timeSeconds && !motion.animations().empty()) {
+    } else if ((request.timeSeconds || request.overFrames) && !motion.animations().empty()) {
         motion.selectAnimation(0);
     } else if (request.timeSeconds && motion.durationSeconds() == 0.0) {
         throw UsageError("--time", "the model has no animations and no deformer has keys",

@@ -9,11 +9,12 @@
 /// From options to motion: which animation, with which deformers.
 namespace celadon::app {
 
-/// --animation, --time and --deform, of whichever command.
+/// --animation, --time, --frames and --deform, of whichever command.
 struct MotionRequest {
     std::optional<std::string> animation;  ///< name or number
     std::optional<double> timeSeconds;     ///< with no animation named, the first one is meant
     std::vector<std::string> deformations; ///< instead of those that the model stores
+    bool overFrames = false;               ///< one model over time: the first animation, likewise
 };
 
 /// What --deform says, in order: "twist:y:90", FILE.json, or "none" alone. Nothing: what the model

@@ -140,7 +140,9 @@ void addLights(CLI::App& app, RenderOptions& o) {
 void addMotion(CLI::App& app, RenderOptions& o) {
     const char* group = "Motion";
     addOption(app, "--animation",
-              {group, "NAME|N", "Which of the glTF's animations, by name or number from 0"},
+              {group, "NAME|N",
+               "Which of the glTF's animations, by name or number from 0; default with --time or "
+               "--frames: the first"},
               takeText(o.animation));
     addOption(app, "--time", {group, "S", "The moment of the animation, seconds; default 0"},
               takeNumber(o.timeSeconds, kNotNegative));
@@ -190,26 +192,33 @@ void addMethod(CLI::App& app, RenderOptions& o) {
                "Side of the irradiance buffer in texels; default 512, 2 or 4 times that where "
                "ranges are short for it"},
               takeInteger(o.irradianceSize, 16, kMaxIrradianceSize));
-    addOption(app, "--alpha", {group, "A", "Samples per effective radius; default 15"},
+    addOption(app, "--alpha",
+              {group, "A", "Scheme paper: samples per effective radius; default 15"},
               takeNumber(o.alpha, {0.0, 1e6, true}));
     addOption(app, "--epsilon",
-              {group, "E", "Error that a coarser ring may make; default 0.01 (paper: 0.001)"},
+              {group, "E",
+               "Scheme paper, and layer level: error that a coarser ring may make; default 0.01 "
+               "(paper: 0.001)"},
               takeNumber(o.epsilon, {0.0, 1.0, true}));
     addOption(app, "--table",
               {group, "FILE",
-               "Minimal rendering radii from a file of 'celadon profile table' (.csv or .exr); "
+               "Scheme paper, and layer level: minimal rendering radii from a file of 'celadon "
+               "profile table' (.csv or .exr); "
                "default: computed from each material"},
               takeText(o.table));
     addOption(app, "--discontinuity",
-              {group, "Z", "Depth step within a sample, bounding sphere radii; default 0.03"},
+              {group, "Z",
+               "Scheme paper: depth step within a sample, bounding sphere radii; default 0.03"},
               takeNumber(o.discontinuity, {0.0, 1e6, true}));
     addFlag(app, "--no-orientation", group,
             "Scheme paper: selection without the slope to the light (eq. 11 without |n.l|)",
             o.orientation, false);
-    addOption(app, "--energy",
-              {group, "F",
-               "Part of a profile's energy that a splat reaches to; default 0.995 (paper: 0.95)"},
-              takeNumber(o.energy, {0.0, 1.0, true}));
+    addOption(
+        app, "--energy",
+        {group, "F",
+         "Scheme paper: part of a profile's energy that a splat reaches to; default 0.995 (paper: "
+         "0.95)"},
+        takeNumber(o.energy, {0.0, 1.0, true}));
     addFlag(app, "--no-adaptive", group, "Every lit finest texel is a sample", o.adaptive, false);
     addFlag(app, "--no-multires", group, "Every splat reaches to its end at full resolution",
             o.multiresolution, false);
@@ -225,7 +234,9 @@ void addPathTraced(CLI::App& app, RenderOptions& o) {
     const char* group = "Path tracing";
     addOption(app, "--paths",
               {group, "N",
-               fmt::format("path-traced: light paths at most; default {}, all of them", o.paths)},
+               fmt::format(
+                   "path-traced: light paths, rounded up to whole rounds; default {}, all of them",
+                   o.paths)},
               takeInteger(o.paths, 1, 2'000'000'000));
     addOption(app, "--noise",
               {group, "F", "path-traced: stops when the relative error is this; default 0, never"},
@@ -328,8 +339,6 @@ void validateRenderOptions(const RenderOptions& o) {
     const ImageFormat format = imageFormat(o.output);
     require(!o.aov || format == ImageFormat::Exr, "--aov", "only EXR holds layers",
             "choose an output that ends in .exr");
-    require(!o.stats || *o.stats != o.output, "--stats", "is the same file as the output",
-            "choose another name");
     require(!o.environmentBehind || o.environment, "--background environment",
             "there is no environment", "name a map with --environment");
     require(!(o.table && o.epsilon), "--epsilon", "does not go with --table",
@@ -343,6 +352,26 @@ void validateRenderOptions(const RenderOptions& o) {
             "--reduced-scattering, or --albedo with --mean-free-path, instead of --material");
     validateMotion(o);
     validateView(o);
+}
+
+std::vector<std::string> idleOptions(const RenderOptions& o) {
+    std::vector<std::string> idle;
+    if (o.solver != Solver::Splatting || o.scheme != Scheme::Hierarchical) {
+        return idle;
+    }
+    const auto add = [&idle](bool isGiven, const char* name) {
+        if (isGiven) {
+            idle.emplace_back(name);
+        }
+    };
+    add(o.alpha.has_value(), "--alpha");
+    // Minimal radii also say which level a pixel has in the layers.
+    add(o.epsilon && !o.aov, "--epsilon");
+    add(o.table && !o.aov, "--table");
+    add(o.discontinuity.has_value(), "--discontinuity");
+    add(o.energy && *o.energy < 1.0, "--energy");
+    add(!o.orientation, "--no-orientation");
+    return idle;
 }
 
 std::filesystem::path outputOfFrame(const RenderOptions& options, int frame) {

@@ -106,6 +106,9 @@ void addRenderOptions(CLI::App& app, RenderOptions& options);
 /// @throws UsageError
 void validateRenderOptions(const RenderOptions& options);
 
+/// Options that were given and change nothing, since they act in the other scheme of splatting.
+[[nodiscard]] std::vector<std::string> idleOptions(const RenderOptions& options);
+
 /// The picture of a frame: `output` itself where it has no field for the number.
 [[nodiscard]] std::filesystem::path outputOfFrame(const RenderOptions& options, int frame);
 

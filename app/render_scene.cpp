@@ -33,13 +33,18 @@ MaterialPointer readMaterialFile(const std::filesystem::path& named,
     return map;
 }
 
+} // namespace
+
+std::string modelOfFrame(const RenderOptions& options, int frame) {
+    return options.sequence ? FramePattern("--sequence", *options.sequence).name(frame)
+                            : options.model;
+}
+
 std::string materialOfFrame(const RenderOptions& options, int frame) {
     return hasFrameField(*options.material)
                ? FramePattern("--material", *options.material).name(frame)
                : *options.material;
 }
-
-} // namespace
 
 bool MaterialOverTime::changes() const {
     return mOptions.material && (mOptions.materialTo || hasFrameField(*mOptions.material));
@@ -85,10 +90,7 @@ MaterialPointer bakeMedium(const subedit::Medium& medium) {
 }
 
 World readWorld(const RenderOptions& options, int frame, const ReadInstead& readInstead) {
-    const std::string model = options.sequence
-                                  ? FramePattern("--sequence", *options.sequence).name(frame)
-                                  : options.model;
-    Scene scene = readModel(model);
+    Scene scene = readModel(modelOfFrame(options, frame));
     MaterialPointer override;
     std::vector<MaterialPointer> named(scene.materials.size());
     MaterialPointer fallback;
@@ -153,7 +155,7 @@ std::vector<Light> lightsOf(const RenderOptions& options, const World& world,
         lights = world.lights;
     }
     if (lights.empty() && !options.environment) {
-        lights.push_back(defaultLight(camera));
+        lights.push_back(defaultLight(camera, world));
     }
     return lights;
 }

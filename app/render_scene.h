@@ -28,6 +28,11 @@ namespace celadon::app {
 /// Material files, by canonical path, and the files that are read in their place.
 using ReadInstead = std::map<std::filesystem::path, std::filesystem::path>;
 
+/// The model's file, or builtin:NAME, and the text of --material, in a frame: patterns are filled
+/// in.
+[[nodiscard]] std::string modelOfFrame(const RenderOptions& options, int frame);
+[[nodiscard]] std::string materialOfFrame(const RenderOptions& options, int frame);
+
 /// Everything that frame `frame` shows: patterns in model and material are filled in.
 [[nodiscard]] World readWorld(const RenderOptions& options, int frame,
                               const ReadInstead& readInstead = {});

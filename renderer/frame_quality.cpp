@@ -10,6 +10,7 @@ FrameSettings frameSettings(Quality quality) {
     switch (quality) {
     case Quality::Sketch:
         splatting.irradianceSize = 128;
+        splatting.patchVariance = 3.0;
         splatting.alpha = 8.0;
         splatting.sampleAngle = 4.0;
         splatting.pixelAngle = 0.3;
@@ -21,6 +22,7 @@ FrameSettings frameSettings(Quality quality) {
         break;
     case Quality::Draft:
         splatting.irradianceSize = 256;
+        splatting.patchVariance = 2.0;
         splatting.alpha = 8.0;
         splatting.sampleAngle = 3.0;
         splatting.fade = 0.3;

@@ -2,6 +2,7 @@
 // Flux is what the geometry intercepts: F_t H a, a the cross-section of the texel towards the light,
 // since Delta A = a / (n . l) and E = F_t H (n . l): the cosines cancel and grazing texels are safe.
 // The texel is a patch: its positions have the covariance C = s/2 (I - n n^T).
+//   PATCH_VARIANCE  s over that of a texel lit evenly, as SplattingSettings has it
 #include "include/light.glsl"
 #include "include/fresnel.glsl"
 #include "include/material.glsl"
@@ -44,7 +45,7 @@ void main() {
     lit = lit && flux.r + flux.g + flux.b > 0.0;
 
     float stretched = 1.0 / max(0.1, cosine);
-    float variance = crossSection / 12.0 * (1.0 + stretched * stretched);
+    float variance = PATCH_VARIANCE * crossSection / 12.0 * (1.0 + stretched * stretched);
     mat3 C = 0.5 * variance * (mat3(1.0) - outerProduct(n, n));
 
     outPosition = vec4(surface.position, depth);

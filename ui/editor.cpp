@@ -187,12 +187,13 @@ void Editor::setActions() {
     mActions.saveAsNew = [this](const std::string& name) { mFiles.saveAsNew(name); };
     mActions.exportGltf = [this] { mFiles.exportGltf(); };
     mActions.savePicture = [this] {
-        mFiles.chooseOutput("Save the picture", ".png", "celadon.png", [this](const auto& file) {
-            mSession.perform({"export.picture", {{"file", file.string()}}});
-        });
+        mFiles.chooseOutput("Save the picture", pictureSuffixes(), "celadon.png",
+                            [this](const auto& file) {
+                                mSession.perform({"export.picture", {{"file", file.string()}}});
+                            });
     };
     mActions.saveTurntable = [this](int frames) {
-        mFiles.chooseOutput("Save a turntable", ".png", "turntable.png",
+        mFiles.chooseOutput("Save a turntable", pictureSuffixes(), "turntable.png",
                             [this, frames](const auto& file) {
                                 mSession.perform({"export.turntable",
                                                   {{"file", file.string()}, {"frames", frames}}});
@@ -223,18 +224,20 @@ void Editor::offerRecovery() {
     if (!found) {
         return;
     }
-    mFiles.ask("Recovery",
-               fmt::format("Celadon did not close properly{}. There are {} steps of painting on "
-                           "'{}' that were perhaps not saved.",
-                           found->reason.empty() ? "" : " (" + found->reason + ")",
-                           found->commands.size(), found->opened.model),
-               {{"Recover",
-                 [this, recovery = *found] {
-                     mRecovery.await(recovery);
-                     mOpen.start(recovery.opened);
-                 }},
-                {"Discard", [recovery = *found] { discard(recovery); }},
-                {"Later", {}}});
+    const std::size_t steps = found->commands.size();
+    mFiles.ask(
+        "Recovery",
+        fmt::format("Celadon did not close properly{}. {} step{} of painting on '{}' may not "
+                    "have been saved.",
+                    found->reason.empty() ? "" : " (" + found->reason + ")", steps,
+                    steps == 1 ? "" : "s", found->opened.model),
+        {{"Recover",
+          [this, recovery = *found] {
+              mRecovery.await(recovery);
+              mOpen.start(recovery.opened);
+          }},
+         {"Discard", [recovery = *found] { discard(recovery); }},
+         {"Later", {}}});
 }
 
 void Editor::run() {
@@ -329,6 +332,9 @@ double Editor::secondsToSleep() const {
     if (mLayout.isTurning || mSession.motion.isPlaying) {
         atMost(0.02);
     }
+    if (!mSession.notices.empty()) {
+        atMost(1.0); // they go when they are old
+    }
     if (mOptions.watch) {
         atMost(kWatchSeconds);
     }
@@ -358,6 +364,9 @@ void Editor::poll() {
         }
     }
     if (mTools.takeArrived()) {
+        mFramesToDraw = kSettlingFrames;
+    }
+    if (mSession.dropOldNotices(std::chrono::steady_clock::now())) {
         mFramesToDraw = kSettlingFrames;
     }
     if (mJobs.poll()) {

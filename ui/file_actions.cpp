@@ -2,13 +2,12 @@
 
 #include "renderer/scene/load_deformers.h"
 #include "subedit/errors.h"
+#include "ui/file_names.h"
 #include "ui/user_folders.h"
 #include "ui/window.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <utility>
 
 namespace celadon::ui {
@@ -16,12 +15,6 @@ namespace celadon::ui {
 namespace {
 
 constexpr const char* kMaterialSuffix = ".subedit.exr";
-
-std::string lowered(std::string text) {
-    std::ranges::transform(text, text.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 } // namespace
 
@@ -126,7 +119,7 @@ void FileActions::saveAs(int material, const std::function<void()>& then) {
     choose(FileDialog::Kind::Save,
            mSession.materialCount() > 1 ? fmt::format("Save material {}, {}", material + 1, label)
                                         : "Save the material",
-           {kMaterialSuffix}, file.empty() ? label + kMaterialSuffix : file.filename().string(),
+           {kMaterialSuffix}, file.empty() ? std::filesystem::path(label + kMaterialSuffix) : file,
            [this, material, then](const auto& chosen) {
                saveTo({material, chosen, {}}, then);
            });
@@ -180,29 +173,30 @@ void FileActions::saveAsNew(const std::string& name) {
 
 void FileActions::exportGltf() {
     const std::string stem = std::filesystem::path(mSession.opened().model).stem().string();
-    chooseOutput("Export glTF and SubEdit", ".gltf",
+    chooseOutput("Export glTF and SubEdit", {".gltf", ".glb"},
                  (stem.starts_with("builtin:") ? stem.substr(8) : stem) + ".gltf",
                  [this](const auto& file) {
                      mSession.perform({"file.export", {{"file", file.string()}}});
                  });
 }
 
-void FileActions::chooseOutput(const std::string& title, const std::string& suffix,
+void FileActions::chooseOutput(const std::string& title, std::vector<std::string> suffixes,
                                const std::string& name,
                                std::function<void(const std::filesystem::path&)> done) {
-    choose(FileDialog::Kind::Save, title, {suffix}, name, std::move(done));
+    choose(FileDialog::Kind::Save, title, std::move(suffixes), name, std::move(done));
 }
 
 void FileActions::choose(FileDialog::Kind kind, const std::string& title,
-                         std::vector<std::string> suffixes, const std::string& name,
+                         std::vector<std::string> suffixes, const std::filesystem::path& proposed,
                          std::function<void(const std::filesystem::path&)> done) {
-    std::filesystem::path folder = mLastFolder;
+    std::filesystem::path& last = kind == FileDialog::Kind::Save ? mSavedTo : mOpenedFrom;
+    std::filesystem::path folder = proposed.has_parent_path() ? proposed.parent_path() : last;
     if (folder.empty() && !mSession.opened().model.starts_with("builtin:")) {
         folder = std::filesystem::path(mSession.opened().model).parent_path();
     }
-    mFiles.open(kind, title, std::move(suffixes), folder, name,
-                [this, done = std::move(done)](const std::filesystem::path& file) {
-                    mLastFolder = file.parent_path();
+    mFiles.open(kind, title, std::move(suffixes), folder, proposed.filename().string(),
+                [&last, done = std::move(done)](const std::filesystem::path& file) {
+                    last = file.parent_path();
                     done(file);
                 });
 }

@@ -39,7 +39,8 @@ public:
     void saveAsNew(const std::string& name);
     void exportGltf();
     /// Any other output: the dialog, and where to write.
-    void chooseOutput(const std::string& title, const std::string& suffix, const std::string& name,
+    void chooseOutput(const std::string& title, std::vector<std::string> suffixes,
+                      const std::string& name,
                       std::function<void(const std::filesystem::path&)> done);
     /// A file that was dropped on the window: a model, a material or an environment.
     void drop(const std::filesystem::path& file);
@@ -67,8 +68,10 @@ public:
     void draw(float scale);
 
 private:
+    /// @param proposed a name, or a file: then its folder is where the dialog begins
     void choose(FileDialog::Kind kind, const std::string& title, std::vector<std::string> suffixes,
-                const std::string& name, std::function<void(const std::filesystem::path&)> done);
+                const std::filesystem::path& proposed,
+                std::function<void(const std::filesystem::path&)> done);
     /// @param then once it is written
     void saveTo(const MaterialSave& save, const std::function<void()>& then);
     void saveAs(int material, const std::function<void()>& then);
@@ -85,7 +88,8 @@ private:
     BackgroundSave mSave;
     FileDialog mFiles;
     Question mQuestion;
-    std::filesystem::path mLastFolder;
+    std::filesystem::path mOpenedFrom; ///< the folders that dialogs were left in last
+    std::filesystem::path mSavedTo;
 };
 
 } // namespace celadon::ui

@@ -1,5 +1,7 @@
 #include "ui/key_actions.h"
 
+#include <imgui.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -72,6 +74,22 @@ void setKey(const KeyTargets& t) {
     }
 }
 
+/// Gives up what the hand does and closes what is open; where there is nothing, the newest notice.
+void cancel(const KeyTargets& t) {
+    const bool isMenuOpen =
+        ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+    const bool isAnyOpen = isMenuOpen || t.layout.helpShown || t.layout.preferencesShown ||
+                           t.tools.isDragging() || t.tools.isAdjusting() ||
+                           t.session.motion.isAddingHandles;
+    if (!isAnyOpen && !t.session.notices.empty()) {
+        t.session.notices.pop_back();
+    }
+    t.layout.openMenu = "none";
+    t.layout.helpShown = false;
+    t.layout.preferencesShown = false;
+    t.tools.cancel();
+}
+
 } // namespace
 
 void performAction(Action action, const KeyTargets& t) {
@@ -137,9 +155,7 @@ void performAction(Action action, const KeyTargets& t) {
         turn(t.session, 0.0, -kTurnDegrees);
         break;
     case Action::Cancel:
-        t.layout.helpShown = false;
-        t.layout.preferencesShown = false;
-        t.tools.cancel();
+        cancel(t);
         break;
     case Action::Save:
         t.actions.save();

@@ -130,6 +130,7 @@ constexpr MouseHelp kMouse[] = {
     {"Middle, Alt+Left", "Turn the view"},
     {"Shift+Middle, Alt+Middle", "Shift the view"},
     {"Wheel, Alt+Right", "Zoom at the cursor"},
+    {"Ctrl+Left on a slider", "Type its number"},
 };
 
 } // namespace

@@ -145,6 +145,22 @@ Light movedTo(const Light& light, const glm::dvec3& position, const BoundingSphe
     return result;
 }
 
+float fittingExposureEv(std::span<const Light> lights, const BoundingSphere& object) {
+    constexpr double kWellExposed = 5.0; // W/m^2, as the default light brings
+    constexpr glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722);
+    double irradiance = 0.0;
+    for (const Light& light : lights) {
+        double distanceM = 1.0;
+        if (light.kind != Light::Kind::Directional) {
+            distanceM = std::max(glm::distance(light.position, object.center), object.radius) / 1e3;
+        }
+        irradiance += glm::dot(light.color, kLuminance) / (distanceM * distanceM);
+    }
+    const double stops = irradiance > 0.0 ? std::log2(kWellExposed / irradiance) : 0.0;
+    return std::abs(stops) > 1.0 ? static_cast<float>(std::clamp(std::round(stops), -20.0, 20.0))
+                                 : 0.0f;
+}
+
 void turnAround(Camera& camera, LightRig& rig, double degrees) {
     const double radians = glm::radians(degrees);
     const glm::dvec3 center = camera.at;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -63,6 +64,11 @@ struct LightRig {
 /// object's center.
 [[nodiscard]] Light movedTo(const Light& light, const glm::dvec3& position,
                             const BoundingSphere& object);
+
+/// Exposure at which what the lights reach is neither burnt out nor dark, in whole stops: for the
+/// luminance that they bring to the object's center, seen as if its surface were the nearest.
+/// @return 0 within a stop of the default light, and where there is none
+[[nodiscard]] float fittingExposureEv(std::span<const Light> lights, const BoundingSphere& object);
 
 /// The camera and all lights turned about the vertical axis through the camera's target: what is
 /// seen is the object turning the other way.

@@ -89,8 +89,7 @@ subedit::EditProgress Session::progressOf(const std::string& title) const {
 
 void Session::edit(const subedit::EditCommand& command) {
     subedit::Document& target = documentOf(*this, activeMaterial);
-    const subedit::EditReport report =
-        target.execute(command, progressOf(subedit::commandTitle(command)));
+    const subedit::EditReport report = target.execute(command, progressOf(editTitle(command)));
     finishEdit(*this, activeMaterial, command, report);
 }
 
@@ -120,8 +119,13 @@ void Session::beginStroke(int material, const subedit::StrokePoint& point, bool 
     if (target == nullptr || isStrokeOpen()) {
         return;
     }
-    Stroke stroke{{makeOperator(paint, inverted), paint.brush, mirror(), {point}}, inverted};
-    stroke.selects = paint.tool == Tool::Select;
+    const bool selects = paint.tool == Tool::Select; // whatever the operator lacks
+    Stroke stroke{{selects ? subedit::EditOperator{} : makeOperator(paint, inverted),
+                   paint.brush,
+                   mirror(),
+                   {point}},
+                  inverted,
+                  selects};
     stroke.isLive = !stroke.selects && subedit::isLocal(stroke.command.op);
     if (stroke.isLive && hasWaiting()) { // while it lasts nothing else may change the material
         performWaiting();
@@ -176,8 +180,7 @@ void Session::finishStroke(int material, const Stroke& stroke) {
             stroke.isInverted ? subedit::SelectMode::Subtract : adding};
     }
     const subedit::EditReport report =
-        stroke.isLive ? target.endStroke()
-                      : target.execute(edit, progressOf(subedit::commandTitle(edit)));
+        stroke.isLive ? target.endStroke() : target.execute(edit, progressOf(editTitle(edit)));
     finishEdit(*this, material, edit, report);
 }
 
@@ -200,7 +203,7 @@ void addPaintCommands(Session& session) {
                          subedit::parseCommand("paint.edit", a.value("edit").dump());
                      subedit::Document& document = documentOf(session, material);
                      session.activeMaterial = material; // as by the hand that did it
-                     document.execute(edit, session.progressOf(subedit::commandTitle(edit)));
+                     document.execute(edit, session.progressOf(editTitle(edit)));
                      session.dropUndone(material);
                      session.touchMaterial();
                  });

@@ -14,28 +14,28 @@ namespace celadon::ui {
 namespace {
 
 constexpr std::array<PaintOperatorName, 11> kOperators{{
-    {PaintOperator::Profile, "profile", "Profile", "secondary profile",
+    {PaintOperator::Profile, "profile", "mix", "Profile", "secondary profile",
      "Mixes in the primary profile; with Ctrl the secondary one"},
-    {PaintOperator::ScaleAlbedo, "scale-albedo", "Lighten", "darken",
+    {PaintOperator::ScaleAlbedo, "scale-albedo", "scale-albedo", "Lighten", "darken",
      "Multiplies the diffuse albedo; range and shape stay. With Ctrl: divides, so it darkens"},
-    {PaintOperator::SetAlbedo, "set-albedo", "Albedo", nullptr,
+    {PaintOperator::SetAlbedo, "set-albedo", "set-albedo", "Albedo", nullptr,
      "Gives the diffuse albedo of the color below"},
-    {PaintOperator::Tint, "tint", "Tint", nullptr,
+    {PaintOperator::Tint, "tint", "tint", "Tint", nullptr,
      "Pulls the color of the albedo, its luminance stays"},
-    {PaintOperator::ScaleRange, "scale-range", "Soften", "harden",
+    {PaintOperator::ScaleRange, "scale-range", "scale-range", "Soften", "harden",
      "Multiplies the effective scattering radius; the albedo stays. With Ctrl: divides, harder"},
-    {PaintOperator::SetRange, "set-range", "Range", nullptr,
+    {PaintOperator::SetRange, "set-range", "set-range", "Range", nullptr,
      "Gives the effective scattering radius (R_P, mm) set below"},
-    {PaintOperator::Shape, "shape", "Shape", "shape of the secondary",
+    {PaintOperator::Shape, "shape", "set-shape", "Shape", "shape of the secondary",
      "Gives the shape of the primary profile; albedo and range stay"},
-    {PaintOperator::Enhance, "enhance", "Contrast", "smooth",
+    {PaintOperator::Enhance, "enhance", "heterogeneity", "Contrast", "smooth",
      "Makes differences from the neighborhood larger; with Ctrl it smooths them"},
-    {PaintOperator::Gradient, "gradient", "Gradient", "the other way",
+    {PaintOperator::Gradient, "gradient", "gradient", "Gradient", "the other way",
      "From the primary to the secondary profile along a line: Shift+drag over the surface draws "
      "it"},
-    {PaintOperator::Clone, "clone", "Clone", nullptr,
+    {PaintOperator::Clone, "clone", "clone", "Clone", nullptr,
      "Copies the material from another place: Shift+click there first"},
-    {PaintOperator::Pattern, "pattern", "Pattern", nullptr,
+    {PaintOperator::Pattern, "pattern", "transfer-pattern", "Pattern", nullptr,
      "Copies only the pattern of another place onto this base: Shift+click there first"},
 }};
 
@@ -56,6 +56,13 @@ PaintOperator parsePaintOperator(std::string_view word) {
         }
     }
     throw UsageError(fmt::format("operator '{}'", word), "there is no such operator");
+}
+
+std::string editTitle(const subedit::EditCommand& command) {
+    return subedit::commandTitle(command, [](const subedit::EditOperator& op) -> std::string_view {
+        return std::ranges::find(kOperators, subedit::operatorName(op), &PaintOperatorName::edit)
+            ->label;
+    });
 }
 
 subedit::EditOperator makeOperator(const PaintState& state, bool inverted) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "subedit/document/edit_command.h"
 #include "subedit/edit/edit_operator.h"
 #include "subedit/map/material_map.h"
 #include "subedit/paint/brush.h"
@@ -45,6 +46,7 @@ enum class PaintOperator {
 struct PaintOperatorName {
     PaintOperator op;
     std::string_view word; ///< in commands
+    std::string_view edit; ///< of subedit/edit that it is, as in files
     const char* label;
     const char* inverse; ///< what it does with Ctrl; null: nothing else
     const char* help;
@@ -53,6 +55,9 @@ struct PaintOperatorName {
 [[nodiscard]] const PaintOperatorName& paintOperator(PaintOperator op);
 /// @throws UsageError
 [[nodiscard]] PaintOperator parsePaintOperator(std::string_view word);
+
+/// For a menu, with the names of the palette: "Soften stroke".
+[[nodiscard]] std::string editTitle(const subedit::EditCommand& command);
 
 struct NamedProfile {
     std::string name;

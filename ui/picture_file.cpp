@@ -4,6 +4,10 @@
 
 namespace celadon::ui {
 
+std::vector<std::string> pictureSuffixes() {
+    return {".png", ".jpg", ".jpeg", ".tif", ".tiff"};
+}
+
 void writePicture(const std::filesystem::path& file, const std::vector<std::uint8_t>& rgb,
                   glm::ivec2 size) {
     FloatImage image;

@@ -6,10 +6,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 /// Display pixels to files.
 namespace celadon::ui {
+
+/// Those that writePicture() takes, the usual one first.
+[[nodiscard]] std::vector<std::string> pictureSuffixes();
 
 /// @param rgb rows from the top @throws UsageError (extension), OutputError
 void writePicture(const std::filesystem::path& file, const std::vector<std::uint8_t>& rgb,

@@ -1,5 +1,6 @@
 // Commands about the two profiles in hand. Radii in mm, P in 1/mm^2.
 #include "subedit/edit/profile_editor.h"
+#include "subedit/effective_radius.h"
 #include "subedit/errors.h"
 #include "subedit/map/material_file.h"
 #include "subedit/map/shipped_materials.h"
@@ -7,8 +8,11 @@
 #include "ui/session.h"
 
 #include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
 #include <glm/vec3.hpp>
 
+#include <algorithm>
 #include <utility>
 
 namespace celadon::ui {
@@ -27,7 +31,26 @@ subedit::ProfileLayout layoutOf(const subedit::StoredProfile& profile) {
     return {profile.segments, profile.maxRadiusMm};
 }
 
-/// Changes a profile by albedo, range or single knots.
+/// No more light than came in, whatever was asked. Knots at the floor stay there, so that scaling
+/// the rest takes a few rounds.
+void limitAlbedo(subedit::StoredProfile& profile) {
+    constexpr int kRounds = 10;
+    constexpr auto kLargest = static_cast<double>(subedit::kLargestAlbedo);
+    for (int round = 0; round < kRounds; ++round) {
+        const glm::dvec3 shift =
+            glm::max(glm::log(subedit::diffuseAlbedo(profile.view()) / kLargest), glm::dvec3(0.0));
+        if (shift == glm::dvec3(0.0)) {
+            return;
+        }
+        for (std::size_t i = 0; i < profile.logProfile.size(); ++i) {
+            float& logP = profile.logProfile[i];
+            logP = std::max(logP - static_cast<float>(shift[static_cast<int>(i % 3)]),
+                            subedit::kLogProfileFloor);
+        }
+    }
+}
+
+/// Changes a profile by albedo or range.
 void changeProfile(subedit::StoredProfile& profile, const Arguments& a) {
     subedit::ProfileEditor editor(layoutOf(profile));
     editor.load(profile.logProfile.data());
@@ -49,6 +72,7 @@ void changeProfile(subedit::StoredProfile& profile, const Arguments& a) {
         editor.scaleRange(scale);
     }
     profile.logProfile.assign(editor.result(), editor.result() + layoutOf(profile).values());
+    limitAlbedo(profile);
 }
 
 void moveKnot(subedit::StoredProfile& profile, const Arguments& a) {
@@ -59,13 +83,8 @@ void moveKnot(subedit::StoredProfile& profile, const Arguments& a) {
     subedit::ProfileEditor editor(layoutOf(profile));
     editor.load(profile.logProfile.data());
     editor.values()[knot * 3 + channel] = value;
-    editor.measure();
-    for (int c = 0; c < 3; ++c) {
-        if (editor.albedo()[c] > subedit::kLargestAlbedo) { // more light than came in
-            editor.setAlbedo(c, subedit::kLargestAlbedo);
-        }
-    }
     profile.logProfile.assign(editor.result(), editor.result() + layoutOf(profile).values());
+    limitAlbedo(profile);
 }
 
 } // namespace

@@ -3,6 +3,8 @@
 #include "renderer/scene/camera.h"
 #include "subedit/errors.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -55,7 +57,7 @@ bool Session::attempt(const std::function<void()>& action) {
     } catch (const GivenUp& givenUp) {
         notify(Notice::Kind::Info, givenUp.what());
     } catch (const Error& error) {
-        notify(Notice::Kind::Error, error.what());
+        notify(error);
     }
     return false;
 }
@@ -67,6 +69,19 @@ void Session::notify(Notice::Kind kind, const std::string& text) {
     if (notices.size() > kMostNotices) {
         notices.erase(notices.begin());
     }
+}
+
+void Session::notify(const Error& error) {
+    const bool isRefused = error.exitCode() == ExitCode::Usage;
+    notify(isRefused ? Notice::Kind::Warning : Notice::Kind::Error, error.what());
+}
+
+bool Session::dropOldNotices(std::chrono::steady_clock::time_point now) {
+    using namespace std::chrono_literals;
+    return std::erase_if(notices, [now](const Notice& notice) {
+               return notice.kind != Notice::Kind::Error &&
+                      now - notice.since > (notice.kind == Notice::Kind::Info ? 8s : 20s);
+           }) > 0;
 }
 
 void Session::adopt(const OpenRequest& request, OpenedScene scene) {
@@ -97,6 +112,13 @@ void Session::adopt(const OpenRequest& request, OpenedScene scene) {
         }
         if (rig.lights.empty()) {
             rig.lights = lightPreset("back", camera, mWorld->scatteringSphere);
+        }
+        view.exposureEv = fittingExposureEv(mWorld->lights, mWorld->scatteringSphere);
+        if (view.exposureEv != 0.0f) {
+            notify(Notice::Kind::Info,
+                   fmt::format("The exposure is {:+.0f} EV, for the lights of the "
+                               "model: View changes it",
+                               view.exposureEv));
         }
         selectedLight = 0;
         paint.brush.radiusMm = static_cast<float>(0.08 * mWorld->scatteringSphere.radius);

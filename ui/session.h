@@ -196,6 +196,10 @@ public:
     std::function<void(const std::filesystem::path&)> beforeWriting;
 
     void notify(Notice::Kind kind, const std::string& text);
+    /// What cannot be done so is a warning, what failed an error.
+    void notify(const Error& error);
+    /// Those that were there long enough to be read; errors stay. @return whether there were any
+    bool dropOldNotices(std::chrono::steady_clock::time_point now);
 
     /// Grows with every change of what the viewport shows, except its size.
     [[nodiscard]] std::uint64_t pictureRevision() const { return mPictureRevision; }
@@ -214,7 +218,7 @@ private:
     bool attempt(const std::function<void()>& action);
     /// The stroke in hand.
     struct Stroke {
-        subedit::StrokeCommand command;
+        subedit::StrokeCommand command; ///< its operator does not matter where it selects
         bool isInverted = false;
         bool selects = false; ///< its paint is selection
         bool isLive = false;  ///< the material follows; else all is done at the end

@@ -65,7 +65,7 @@ bool Session::undoEdit() {
     if (material < 0) {
         return false;
     }
-    document(material)->undo(progressOf("Undo " + document(material)->undoTitle()));
+    document(material)->undo(progressOf("Undo " + editTitle(*document(material)->undoCommand())));
     activeMaterial = material;
     touchMaterial();
     return true;
@@ -76,7 +76,7 @@ bool Session::redoEdit() {
     if (material < 0) {
         return false;
     }
-    document(material)->redo(progressOf("Redo " + document(material)->redoTitle()));
+    document(material)->redo(progressOf("Redo " + editTitle(*document(material)->redoCommand())));
     activeMaterial = material;
     touchMaterial();
     return true;

@@ -124,7 +124,8 @@ std::optional<std::string> Session::undoTitle() const {
         return *title;
     }
     const int material = latestEdited();
-    return material >= 0 ? std::optional(document(material)->undoTitle()) : std::nullopt;
+    return material >= 0 ? std::optional(editTitle(*document(material)->undoCommand()))
+                         : std::nullopt;
 }
 
 std::optional<std::string> Session::redoTitle() const {
@@ -132,7 +133,8 @@ std::optional<std::string> Session::redoTitle() const {
         return *title;
     }
     const int material = nextRedone();
-    return material >= 0 ? std::optional(document(material)->redoTitle()) : std::nullopt;
+    return material >= 0 ? std::optional(editTitle(*document(material)->redoCommand()))
+                         : std::nullopt;
 }
 
 bool Session::undoMotion() {

@@ -372,19 +372,19 @@ bool ViewportTools::paintPoint(glm::dvec2 positionPx, float pressure, const View
     point.pressure = pressure;
     // After a gap, or where the surface jumps, the path begins anew: nothing between is painted.
     constexpr double kJump = 2.5; // radii
-    const bool goesOn = mSession.isStrokeOpen() && mLastPoint &&
-                        glm::distance(*mLastPoint, hit->positionMm) <
-                            kJump * static_cast<double>(mSession.paint.brush.radiusMm);
-    if (!goesOn) {
-        mSession.endStroke();
+    const bool goesOn =
+        mLastPoint && glm::distance(*mLastPoint, hit->positionMm) <
+                          kJump * static_cast<double>(mSession.paint.brush.radiusMm);
+    if (mSession.isStrokeOpen()) {
+        point.isLifted = !goesOn;
+        mSession.addStrokePoint(point);
+    } else {
         try {
             mSession.beginStroke(hit->material, point, mInverted);
         } catch (const Error& error) {
-            mSession.notify(Notice::Kind::Error, error.what());
+            mSession.notify(error);
             return false;
         }
-    } else {
-        mSession.addStrokePoint(point);
     }
     mLastPoint = hit->positionMm;
     return true;

@@ -1,6 +1,7 @@
 #include "app/material/map_argument.h"
 #include "app/material/material_commands.h"
 #include "app/option_takers.h"
+#include "app/overwriting.h"
 #include "app/profile/profile_output.h"
 #include "subedit/errors.h"
 #include "subedit/map/image_map.h"
@@ -201,6 +202,13 @@ void runBake(const BakeOptions& options) {
     }
     const bool fromMaps = checkSources(options);
     checkMaterialOutput("material bake", options.output);
+    refuseOverwriting({{"--output", options.output}},
+                      {{"--albedo", options.albedo},
+                       {"--mean-free-path", options.meanFreePath},
+                       {"--absorption", options.absorption},
+                       {"--reduced-scattering", options.reducedScattering},
+                       {"--roughness", options.roughness},
+                       {"--specular", options.specular}});
     BakeSettings settings;
     settings.maxRadiusMm = options.maxRadiusMm;
     MaterialMap map;

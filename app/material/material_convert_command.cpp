@@ -84,9 +84,9 @@ void runConvert(const ConvertOptions& options) {
     }
     writeMaterial(out, options.output,
                   options.storeFloat ? StoredPrecision::Float : StoredPrecision::Half);
-    fmt::print("{} x {} texels, {} segments to r_s = {:.4g} mm, mean albedo {:.5f} (was {:.5f})\n",
-               out.width, out.height, out.segments, out.maxRadiusMm, meanAlbedo(out),
-               meanAlbedo(map));
+    log::info("{} x {} texels, {} segments to r_s = {:.4g} mm, mean albedo {:.5f} (was {:.5f})",
+              out.width, out.height, out.segments, out.maxRadiusMm, meanAlbedo(out),
+              meanAlbedo(map));
 }
 
 /// "N" or "WxH".

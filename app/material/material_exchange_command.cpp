@@ -3,6 +3,7 @@
 #include "app/material/material_commands.h"
 #include "app/material/response_table.h"
 #include "app/option_takers.h"
+#include "app/overwriting.h"
 #include "app/profile/profile_output.h"
 #include "renderer/output/atomic_file.h"
 #include "renderer/scene/merge_gltf_material.h"
@@ -116,6 +117,7 @@ void runExport(const ExportOptions& options) {
         checkWritable(options.output);
     }
     const fs::path file = findMaterial(options.material);
+    refuseOverwriting({{"--output", options.output}}, {{"the material", file}});
     const MaterialMap map = readMaterial(file);
     const NearestParameters nearest = nearestParameters(map);
     const json out = options.convention == Convention::Gltf

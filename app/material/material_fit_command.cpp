@@ -34,13 +34,13 @@ struct FitOptions {
 };
 
 void report(const ResponseFit& fit) {
-    fmt::print("{} x {} texels, {} segments to r_s = {:.4g} mm; {} samples used, {} left out\n",
-               fit.map.width, fit.map.height, fit.map.segments, fit.map.maxRadiusMm, fit.used,
-               fit.leftOut);
+    log::info("{} x {} texels, {} segments to r_s = {:.4g} mm; {} samples used, {} left out",
+              fit.map.width, fit.map.height, fit.map.segments, fit.map.maxRadiusMm, fit.used,
+              fit.leftOut);
     for (int channel = 0; channel < 3; ++channel) {
-        fmt::print("{:5}: rms error of ln R_d {:.3g}, relative error of R_d {:.2f} %\n",
-                   channelName(channel), fit.rmsLogError[channel],
-                   100.0 * fit.relativeError[channel]);
+        log::info("{:5}: rms error of ln R_d {:.3g}, relative error of R_d {:.2f} %",
+                  channelName(channel), fit.rmsLogError[channel],
+                  100.0 * fit.relativeError[channel]);
     }
     if (fit.texelsWithout > 0) {
         log::warning("{} of {} texels have no sample: they continue their neighbors; a smaller "

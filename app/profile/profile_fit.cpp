@@ -97,7 +97,7 @@ void runFit(const FitOptions& options) {
     const std::string name =
         options.name.empty() ? std::filesystem::path(options.input).stem().string() : options.name;
     writeFit(options, curves, fitted, name);
-    reportFit(curves, fitted);
+    reportFit(options.output, curves, fitted);
 }
 
 } // namespace
@@ -129,7 +129,8 @@ Command addProfileFit(CLI::App& profile) {
     group = "Result";
     addOption(*fit, "-o,--output",
               {group, "FILE",
-               "FILE.subedit.exr, or FILE.png or .svg: curve and fit; default: the report alone"},
+               "FILE.subedit.exr, or FILE.png or .svg: curve and fit; default: the report alone, "
+               "on stdout"},
               takeText(o.output));
     addOption(*fit, "--eta",
               {group, "N", fmt::format("Relative index of refraction; default {}", o.eta)},

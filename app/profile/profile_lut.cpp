@@ -1,3 +1,4 @@
+#include "app/log.h"
 #include "app/option_takers.h"
 #include "app/profile/profile_commands.h"
 #include "app/profile/profile_output.h"
@@ -121,7 +122,7 @@ void runLut(const LutOptions& options) {
     settings.attributes = describeMapping(options);
     writeExr(options.output, image, settings);
     for (const auto& [name, value] : settings.attributes) {
-        fmt::print("{}: {}\n", name.substr(name.find(':') + 1), value);
+        log::info("{}: {}", name.substr(name.find(':') + 1), value);
     }
 }
 

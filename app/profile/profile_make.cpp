@@ -121,12 +121,12 @@ void runMake(const MakeOptions& options) {
         const FittedProfile fitted = fitProfile(made.curves, settings);
         writeMaterial(oneTexel(fitted, made.eta, profileName(options)), options.output,
                       StoredPrecision::Float);
-        reportFit(made.curves, fitted);
+        reportFit(options.output, made.curves, fitted);
         if (made.walk) {
             for (int channel = 0; channel < 3; ++channel) {
-                fmt::print("{:5}: total {:.5f} +- {:.1g} (standard error)\n", channelName(channel),
-                           made.walk->channels[static_cast<std::size_t>(channel)].total,
-                           made.walk->channels[static_cast<std::size_t>(channel)].totalError);
+                log::info("{:5}: total {:.5f} +- {:.1g} (standard error)", channelName(channel),
+                          made.walk->channels[static_cast<std::size_t>(channel)].total,
+                          made.walk->channels[static_cast<std::size_t>(channel)].totalError);
             }
         }
     }

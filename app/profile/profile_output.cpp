@@ -1,5 +1,6 @@
 #include "app/profile/profile_output.h"
 
+#include "app/log.h"
 #include "renderer/output/atomic_file.h"
 #include "subedit/errors.h"
 #include "subedit/medium.h"
@@ -59,18 +60,30 @@ MaterialMap oneTexel(const FittedProfile& fitted, double eta, const std::string&
     return map;
 }
 
-void reportFit(const RadialCurves& curves, const FittedProfile& fitted) {
+void reportLine(const std::string& output, const std::string& line) {
+    if (output.empty()) {
+        fmt::print("{}\n", line);
+    } else {
+        log::info("{}", line);
+    }
+}
+
+void reportFit(const std::string& output, const RadialCurves& curves, const FittedProfile& fitted) {
     const glm::dvec3 albedo = diffuseAlbedo(fitted.view());
     const glm::dvec3 radius = effectiveRadiusMm(fitted.view());
     const FitError error = measureFit(curves, fitted);
-    fmt::print("r_s {:.4g} mm, {} segments\n", fitted.maxRadiusMm, fitted.segments);
+    reportLine(output,
+               fmt::format("r_s {:.4g} mm, {} segments", fitted.maxRadiusMm, fitted.segments));
     for (int channel = 0; channel < 3; ++channel) {
-        fmt::print("{:5}: albedo {:.4f} (curve {:.4f}), R_P {:.4g} mm, rms error of ln P {:.3g} "
-                   "({:.2g} outside the first segment), {:.2g} % of the energy misplaced\n",
-                   channelName(channel), albedo[channel],
-                   curves[static_cast<std::size_t>(channel)].total, radius[channel],
-                   error.rmsLog[channel], error.rmsLogOutside[channel],
-                   100.0 * error.misplaced[channel]);
+        reportLine(
+            output,
+            fmt::format("{:5}: albedo {:.4f} (curve {:.4f}), R_P {:.4g} mm, rms error of ln P "
+                        "{:.3g} ({:.2g} outside the first segment), {:.2g} % of the energy "
+                        "misplaced",
+                        channelName(channel), albedo[channel],
+                        curves[static_cast<std::size_t>(channel)].total, radius[channel],
+                        error.rmsLog[channel], error.rmsLogOutside[channel],
+                        100.0 * error.misplaced[channel]));
     }
 }
 

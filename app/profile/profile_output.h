@@ -29,7 +29,12 @@ void checkMaterialOutput(const std::string& command, const std::string& output);
 [[nodiscard]] subedit::MaterialMap oneTexel(const subedit::FittedProfile& fitted, double eta,
                                             const std::string& name);
 
-/// Albedo, radius and errors of a fit on stdout.
-void reportFit(const subedit::RadialCurves& curves, const subedit::FittedProfile& fitted);
+/// A line about the result: on stdout where it is all there is, else in the log, since stdout is
+/// for what has no file.
+void reportLine(const std::string& output, const std::string& line);
+
+/// Albedo, radius and errors of a fit.
+void reportFit(const std::string& output, const subedit::RadialCurves& curves,
+               const subedit::FittedProfile& fitted);
 
 } // namespace celadon::app

@@ -1,4 +1,5 @@
 #include "app/option_takers.h"
+#include "app/overwriting.h"
 #include "app/plot/chart.h"
 #include "app/plot/write_plot.h"
 #include "app/profile/profile_commands.h"
@@ -107,6 +108,11 @@ void runTable(const TableOptions& options) {
         throw UsageError("--t-range", "does not rise", "give FROM:TO, such as 1:4096");
     }
     checkOutput(options.output, {".csv", ".exr", ".png", ".svg"});
+    std::vector<NamedFile> materials;
+    for (const std::string& material : options.materials) {
+        materials.push_back({"a material", findMaterial(material)});
+    }
+    refuseOverwriting({{"--output", options.output}}, materials);
     const TableFile table = makeTable(options);
     if (options.output.empty() || hasEnding(options.output, ".csv")) {
         emit(options.output, tableCsv(table));

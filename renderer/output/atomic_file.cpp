@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr mode_t kDefaultMode = 0666; // less the user's umask
+constexpr int kMostLinks = 40;        // that a name may lead through, as Linux has it
 constexpr int kNameAttempts = 100;    // leftovers of a killed process with the same id
 
 std::string quote(const fs::path& path) {
@@ -29,9 +30,9 @@ fs::path folderOf(const fs::path& file) {
     return file.has_parent_path() ? file.parent_path() : fs::path(".");
 }
 
-/// One sentence for what the system said about `target`.
-OutputError systemError(const fs::path& target, int code) {
-    const std::string folder = quote(folderOf(target));
+/// One sentence for what the system said about `target`, which is written at `resolved`.
+OutputError systemError(const fs::path& target, const fs::path& resolved, int code) {
+    const std::string folder = quote(folderOf(resolved));
     switch (code) {
     case ENOENT:
         return {quote(target), fmt::format("the folder {} does not exist", folder),
@@ -67,12 +68,17 @@ fs::path resolveTarget(const fs::path& target) {
     }
     std::error_code error;
     fs::path resolved = target;
-    if (fs::is_symlink(target, error)) {
-        resolved = fs::weakly_canonical(target, error);
+    // Link by link: what the last one names need not exist yet.
+    for (int links = 0; fs::is_symlink(resolved, error); ++links) {
+        const fs::path next = fs::read_symlink(resolved, error);
+        if (links == kMostLinks) {
+            error = std::make_error_code(std::errc::too_many_symbolic_link_levels);
+        }
         if (error) {
             throw OutputError(quote(target),
                               fmt::format("the link cannot be followed ({})", error.message()));
         }
+        resolved = resolved.parent_path() / next;
     }
     const fs::file_status status = fs::status(resolved, error);
     if (fs::is_directory(status) || !resolved.has_filename()) {
@@ -108,11 +114,11 @@ AtomicFile::AtomicFile(const fs::path& target) : mTarget(target), mResolved(reso
     // A name that the file system refuses should be refused now, not at the rename.
     struct stat info {};
     if (::lstat(mResolved.c_str(), &info) != 0 && errno == ENAMETOOLONG) {
-        throw systemError(mTarget, errno);
+        throw systemError(mTarget, mResolved, errno);
     }
     mDescriptor = createTemporary(folderOf(mResolved), mTemporary);
     if (mDescriptor < 0) {
-        throw systemError(mTarget, errno);
+        throw systemError(mTarget, mResolved, errno);
     }
 }
 
@@ -141,7 +147,7 @@ void AtomicFile::write(std::span<const std::byte> bytes) {
         if (written < 0) {
             const int code = errno;
             discard();
-            throw systemError(mTarget, code);
+            throw systemError(mTarget, mResolved, code);
         }
         bytes = bytes.subspan(static_cast<std::size_t>(written));
     }
@@ -161,7 +167,7 @@ void AtomicFile::commit() {
     if (::close(descriptor) != 0 || ::rename(mTemporary.c_str(), mResolved.c_str()) != 0) {
         const int code = errno;
         discard();
-        throw systemError(mTarget, code);
+        throw systemError(mTarget, mResolved, code);
     }
     mTemporary.clear();
 }

@@ -4,6 +4,14 @@
 
 namespace celadon {
 
+glm::dvec3 totalFlux(std::span<const Patch> patches) {
+    glm::dvec3 sum(0.0);
+    for (const Patch& patch : patches) {
+        sum += glm::dvec3(patch.flux);
+    }
+    return sum;
+}
+
 Patch makePatch(glm::vec3 positionMm, glm::vec3 normal, glm::vec3 flux, float varianceMm2,
                 glm::vec2 uv, int material) {
     const float h = 0.5f * varianceMm2;

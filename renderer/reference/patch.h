@@ -4,6 +4,7 @@
 #include <glm/vec3.hpp>
 
 #include <array>
+#include <span>
 
 /// The two ends of light transport below a surface: lit patches, where flux enters, and exit
 /// points, where the exitance is wanted (DESIGN sections 1 and 3.1).
@@ -28,6 +29,9 @@ struct ExitPoint {
     glm::vec2 uv{0.0f};
     int material = -1; ///< index into the materials; < 0: background, exitance 0
 };
+
+/// The flux of all of them together, W.
+[[nodiscard]] glm::dvec3 totalFlux(std::span<const Patch> patches);
 
 /// A patch that spreads evenly in all directions of its tangent plane: covariance half of
 /// variance (I - n n^T).

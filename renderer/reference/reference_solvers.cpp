@@ -34,14 +34,9 @@ void appendPatches(const IrradianceBuffer& buffer, std::vector<Patch>& patches) 
     }
 }
 
-void addFlux(std::span<const Patch> patches, FrameStats& statistics) {
-    statistics.samples.candidates += patches.size();
-    statistics.samples.selected = {patches.size()};
-    for (const Patch& patch : patches) {
-        for (int c = 0; c < 3; ++c) {
-            statistics.flux.lit[static_cast<std::size_t>(c)] += static_cast<double>(patch.flux[c]);
-        }
-    }
+/// References leave out nothing of what is lit.
+void setFlux(const glm::dvec3& lit, FrameStats& statistics) {
+    statistics.flux.lit = {lit.x, lit.y, lit.z};
     statistics.flux.selected = statistics.flux.lit;
 }
 
@@ -116,7 +111,9 @@ std::vector<glm::vec3> ImageReferenceSolver::gather(const SolveInput& input,
             appendPatches(mIrradiance, patches);
         }
     }
-    addFlux(patches, statistics);
+    statistics.samples.candidates = patches.size();
+    statistics.samples.selected = {patches.size()};
+    setFlux(totalFlux(patches), statistics);
     GatherOptions options;
     options.pointSamples = mPointSamples;
     options.cancel = input.interrupt;
@@ -131,6 +128,7 @@ std::vector<glm::vec3> SurfaceReferenceSolver::gather(const SolveInput& input,
     SurfaceReferenceResult result = mReference.solve(exitPoints, input.lights);
     statistics.samples.pairs = result.pairs;
     statistics.reference.relativeError = result.relativeError;
+    setFlux(result.litFlux, statistics);
     return std::move(result.exitance);
 }
 
@@ -144,10 +142,7 @@ std::vector<glm::vec3> PathTracedSolver::gather(const SolveInput& input,
     statistics.reference = {
         result.relativeError, result.paths,
         sum(result.flux.entered) > 0.0 ? sum(result.flux.lost) / sum(result.flux.entered) : 0.0};
-    for (int c = 0; c < 3; ++c) {
-        statistics.flux.lit[static_cast<std::size_t>(c)] = result.flux.entered[c];
-    }
-    statistics.flux.selected = statistics.flux.lit;
+    setFlux(result.flux.entered, statistics);
     // Buffers of a view are padded at the right and at the top.
     std::vector<glm::vec3> exitance(exitPoints.size(), glm::vec3(0.0f));
     const auto stride = static_cast<std::size_t>(input.view.paddedSize().x);

@@ -225,6 +225,7 @@ SurfaceReferenceResult SurfaceReference::solve(std::span<const ExitPoint> exitPo
         }
         const SurfacePatches samples =
             samplePatches(lights, std::max(1, options.samples / 2), 2 * options.seed + half);
+        result.litFlux += 0.5 * totalFlux(samples.patches);
         gather.triangles = samples.triangles;
         halves[half] = gatherExitance(exitPoints, samples.patches, mRays.world().materials, gather);
         result.pairs += halves[half].pairs;

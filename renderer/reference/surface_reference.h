@@ -23,6 +23,7 @@ struct SurfaceReferenceResult {
     std::vector<glm::vec3> exitance;      ///< W/m^2: the mean of two independent halves
     std::vector<glm::vec3> standardError; ///< half of the difference of the halves, per point
     double relativeError = 0.0;           ///< root mean square of it over that of the exitance
+    glm::dvec3 litFlux{0.0};              ///< that enters the surface, seen or not; W
     std::uint64_t pairs = 0;
     bool cancelled = false;
 };

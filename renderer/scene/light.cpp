@@ -87,6 +87,32 @@ private:
     std::vector<std::string_view> mFields;
 };
 
+/// Whether hardly anything that scatters faces a light from there. As much of a closed surface, and
+/// of one seen from both sides, faces a light as turns its back, whatever its shape: this is about
+/// open surfaces alone, such as a plane seen from its front.
+bool turnsItsBack(const World& world, const glm::dvec3& toLight) {
+    constexpr double kHardly = 0.1;
+    double facing = 0.0;
+    double averted = 0.0;
+    for (const WorldMesh& part : world.meshes) {
+        const Mesh& mesh = part.mesh;
+        const auto look = static_cast<std::size_t>(mesh.material);
+        if (part.scattering < 0) {
+            continue;
+        }
+        const bool isDoubleSided = look < world.looks.size() && world.looks[look].doubleSided;
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            const glm::dvec3 a(mesh.positions[mesh.indices[i]]);
+            const glm::dvec3 b(mesh.positions[mesh.indices[i + 1]]);
+            const glm::dvec3 c(mesh.positions[mesh.indices[i + 2]]);
+            const double area = glm::dot(glm::cross(b - a, c - a), toLight);
+            facing += isDoubleSided ? std::abs(area) : std::max(area, 0.0);
+            averted += isDoubleSided ? std::abs(area) : std::max(-area, 0.0);
+        }
+    }
+    return facing < kHardly * averted;
+}
+
 } // namespace
 
 Light parseLight(std::string_view text) {
@@ -138,7 +164,7 @@ double spotFactor(const Light& light, double cosAngle) {
     return ramp * ramp;
 }
 
-Light defaultLight(const Camera& camera) {
+Light defaultLight(const Camera& camera, const World& world) {
     // Where the light comes from, in the camera's frame (right, up, towards the viewer): 40 degrees
     // up, and 97 degrees away from the viewer, so just behind the plane of the picture.
     const glm::dvec3 source = glm::normalize(glm::dvec3(0.76, 0.63, -0.12));
@@ -149,6 +175,9 @@ Light defaultLight(const Camera& camera) {
     Light light;
     light.kind = Light::Kind::Directional;
     light.direction = -(source.x * frame.right + source.y * frame.up - source.z * frame.forward);
+    if (turnsItsBack(world, -light.direction)) {
+        light.direction = frame.forward; // reaches whatever the camera sees
+    }
     light.color = glm::dvec3(kIrradiance);
     return light;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderer/scene/scene.h"
+#include "renderer/scene/world.h"
 
 #include <glm/vec3.hpp>
 
@@ -38,7 +38,8 @@ struct SpotFalloff {
 
 /// The one light of a scene that brings none: directional, seen from `camera` coming from behind
 /// the object, above and to the right, so that thin parts glow and the far side of thick ones
-/// fades; the lit side still shows to the camera as a broad rim.
-[[nodiscard]] Light defaultLight(const Camera& camera);
+/// fades; the lit side still shows to the camera as a broad rim. A one-sided sheet that would turn
+/// its back to that light is lit from the camera.
+[[nodiscard]] Light defaultLight(const Camera& camera, const World& world);
 
 } // namespace celadon

@@ -99,7 +99,8 @@ void addTo(std::vector<float>& sum, const std::vector<float>& part) {
 CpuBackend::CpuBackend(const gl::ShaderLibrary& shaders, std::span<const MaterialPointer> materials,
                        const SplattingBuffer& view, const SplattingSettings& settings)
     : mSettings(settings),
-      mIrradiance(shaders, static_cast<int>(materials.size()), settings.irradianceSize, 1),
+      mIrradiance(shaders, static_cast<int>(materials.size()), settings.irradianceSize, 1,
+                  settings.patchVariance),
       mMaterials(materials),
       mExitance(gl::Texture::make2d("exitance", GL_RGBA32F, view.paddedSize(), view.levels())),
       mView(static_cast<std::size_t>(view.levels())),

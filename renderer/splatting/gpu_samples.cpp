@@ -12,7 +12,7 @@ GpuSamples::GpuSamples(const gl::ShaderLibrary& shaders, const GpuMaterials& mat
                        const SplattingSettings& settings)
     : mCutEnergy(static_cast<float>(settings.energy)),
       mBuffer(shaders, materials.count(), settings.irradianceSize,
-              settings.adaptive ? settings.irradianceLevels : 1),
+              settings.adaptive ? settings.irradianceLevels : 1, settings.patchVariance),
       mSelection(shaders, mBuffer, settings.scheme) {
     if (!materials.isHomogeneous() && mBuffer.levels() > 1) {
         mProfiles.emplace(shaders, mBuffer, materials.count(), materials.commonKnots().segments);

@@ -11,12 +11,14 @@ glm::ivec2 paddedSize(glm::ivec2 size, int levels) {
 }
 
 IrradianceBuffer::IrradianceBuffer(const gl::ShaderLibrary& shaders, int materialCount, int size,
-                                   int levels)
+                                   int levels, double patchVariance)
     : mSize(size),
       mLevels(levels),
       mPaddedSize(celadon::paddedSize(glm::ivec2(size), levels).x),
       mDraw("irradiance buffer", shaders, SeenFrom::Light, SurfaceDraw::Shows::Geometry,
-            "irradiance_buffer.frag", {{"MATERIAL_COUNT", std::to_string(materialCount)}}),
+            "irradiance_buffer.frag",
+            {{"MATERIAL_COUNT", std::to_string(materialCount)},
+             {"PATCH_VARIANCE", std::to_string(patchVariance)}}),
       mRadii("irradiance radii", shaders, {"irradiance_radii.comp"},
              {{"MATERIAL_COUNT", std::to_string(materialCount)}}),
       mMip("irradiance mip", shaders, {"irradiance_mip.comp"}),

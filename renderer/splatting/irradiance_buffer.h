@@ -16,7 +16,9 @@ namespace celadon {
 class IrradianceBuffer {
 public:
     /// @param size N >= 1; @param levels >= 1
-    IrradianceBuffer(const gl::ShaderLibrary& shaders, int materialCount, int size, int levels);
+    /// @param patchVariance  as SplattingSettings
+    IrradianceBuffer(const gl::ShaderLibrary& shaders, int materialCount, int size, int levels,
+                     double patchVariance = 1.0);
 
     /// Draws level 0 from a view of this buffer's size. The frame's, the materials' and the light
     /// view's uniform blocks are bound.

@@ -24,10 +24,14 @@ struct SplattingSettings {
     SplatBackendKind backend = SplatBackendKind::Auto;
     int irradianceSize = 512;       ///< N, texels on a side of the irradiance buffer
     bool refineShortRanges = false; ///< doubles N where R_P spans few texels
-    int irradianceLevels = 6;       ///< 1: level 0 only
-    int splattingLevels = 5;        ///< 1: full resolution only
-    double alpha = 15.0;            ///< eq. 11
-    double epsilon = 0.01;          ///< eq. 14
+    /// Of a texel's patch, over that of a texel lit evenly. With 1, patches wider than the core of
+    /// a profile leave a comb between them, seen as a lattice of dots; with 2 a fifth of it, and
+    /// edges of shadows that are softer by a tenth of a texel.
+    double patchVariance = 1.0;
+    int irradianceLevels = 6; ///< 1: level 0 only
+    int splattingLevels = 5;  ///< 1: full resolution only
+    double alpha = 15.0;      ///< eq. 11
+    double epsilon = 0.01;    ///< eq. 14
     /// Rbar over log2 T as MaterialTables has it, for all materials; empty: computed from each.
     std::vector<float> rangeTable{};
     double discontinuity = 0.03; ///< z_0 in bounding sphere radii, eq. 10

@@ -95,9 +95,9 @@ public:
     /// @return whether there was anything to undo
     bool undo(const EditProgress& progress = {});
     bool redo(const EditProgress& progress = {});
-    /// Of the command that undo() or redo() would take back or repeat; empty if none.
-    [[nodiscard]] std::string undoTitle() const;
-    [[nodiscard]] std::string redoTitle() const;
+    /// The command that undo() or redo() would take back or repeat; null: there is none.
+    [[nodiscard]] const EditCommand* undoCommand() const;
+    [[nodiscard]] const EditCommand* redoCommand() const;
     /// When the command was first done that undo() would take back, or redo() repeat: commands of
     /// all documents are numbered in their order. 0: there is none.
     [[nodiscard]] std::uint64_t undoOrder() const;

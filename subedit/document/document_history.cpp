@@ -390,12 +390,12 @@ bool Document::redo(const EditProgress& progress) {
     return true;
 }
 
-std::string Document::undoTitle() const {
-    return canUndo() ? commandTitle(mHistory[mDone - 1]->command) : std::string();
+const EditCommand* Document::undoCommand() const {
+    return canUndo() ? &mHistory[mDone - 1]->command : nullptr;
 }
 
-std::string Document::redoTitle() const {
-    return canRedo() ? commandTitle(mHistory[mDone]->command) : std::string();
+const EditCommand* Document::redoCommand() const {
+    return canRedo() ? &mHistory[mDone]->command : nullptr;
 }
 
 std::uint64_t Document::undoOrder() const {

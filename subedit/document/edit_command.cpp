@@ -14,11 +14,11 @@ const EditOperator* operatorOf(const EditCommand& command) {
         command);
 }
 
-std::string commandTitle(const EditCommand& command) {
+std::string commandTitle(const EditCommand& command, OperatorNaming nameOf) {
     if (const auto* selection = std::get_if<SelectCommand>(&command)) {
         return "select " + std::string(selectionStepName(selection->step));
     }
-    const std::string name(operatorName(*operatorOf(command)));
+    const std::string name(nameOf(*operatorOf(command)));
     if (std::holds_alternative<StrokeCommand>(command)) {
         return name + " stroke";
     }

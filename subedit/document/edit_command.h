@@ -56,7 +56,11 @@ using EditCommand =
 /// The operator of a command; null for a selection.
 [[nodiscard]] const EditOperator* operatorOf(const EditCommand& command);
 
-/// For a menu: "scale-albedo stroke".
-[[nodiscard]] std::string commandTitle(const EditCommand& command);
+/// What an operator is called.
+using OperatorNaming = std::string_view (*)(const EditOperator&);
+
+/// In a few words: "scale-albedo stroke".
+[[nodiscard]] std::string commandTitle(const EditCommand& command,
+                                       OperatorNaming nameOf = operatorName);
 
 } // namespace celadon::subedit

@@ -85,6 +85,17 @@ float JsonReader::number(const char* name, const Limits& limits, float otherwise
     return has(name) ? number(name, limits) : otherwise;
 }
 
+bool JsonReader::flag(const char* name, bool otherwise) const {
+    if (!has(name)) {
+        return otherwise;
+    }
+    const json& value = member(name);
+    if (!value.is_boolean()) {
+        fail(name, fmt::format("is {}, not true or false", shown(value)));
+    }
+    return value.get<bool>();
+}
+
 glm::vec3 JsonReader::vec3(const char* name, const Limits& limits) const {
     const json& value = member(name);
     if (!value.is_array() || value.size() != 3) {

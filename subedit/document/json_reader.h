@@ -30,6 +30,7 @@ public:
     [[nodiscard]] bool has(const char* name) const;
     [[nodiscard]] float number(const char* name, const Limits& limits) const;
     [[nodiscard]] float number(const char* name, const Limits& limits, float otherwise) const;
+    [[nodiscard]] bool flag(const char* name, bool otherwise) const;
     [[nodiscard]] glm::vec3 vec3(const char* name, const Limits& limits) const;
     [[nodiscard]] glm::vec2 vec2(const char* name, const Limits& limits) const;
     [[nodiscard]] std::string text(const char* name) const;

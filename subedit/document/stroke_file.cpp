@@ -266,6 +266,7 @@ private:
             const JsonReader in(mSubject, value, pointer);
             points.push_back(point(in));
             points.back().pressure = in.number("pressure", kUnit, 1.0f);
+            points.back().isLifted = in.flag("lifted", false);
             in.finish();
         });
         return points;
@@ -394,7 +395,8 @@ json toJson(const StoredProfile& profile) {
     return {{"maxRadiusMm", wide(profile.maxRadiusMm)}, {"knots", std::move(knots)}};
 }
 
-json toJson(const StrokePoint& point, bool withPressure = false) {
+/// A place: of a point of a path all but what the hand did there.
+json toJson(const StrokePoint& point) {
     json out = json::object();
     if (point.uv) {
         out["uv"] = json::array({wide(point.uv->x), wide(point.uv->y)});
@@ -403,9 +405,6 @@ json toJson(const StrokePoint& point, bool withPressure = false) {
         if (point.normal != glm::vec3(0.0f)) {
             out["normal"] = toJson(point.normal);
         }
-    }
-    if (withPressure && point.pressure != 1.0f) {
-        out["pressure"] = wide(point.pressure);
     }
     return out;
 }
@@ -435,7 +434,13 @@ void addStroke(json& out, const Brush& brush, const Mirror& mirror,
     addMirror(out, mirror);
     json points = json::array();
     for (const StrokePoint& point : path) {
-        points.push_back(toJson(point, true));
+        json& last = points.emplace_back(toJson(point));
+        if (point.pressure != 1.0f) {
+            last["pressure"] = wide(point.pressure);
+        }
+        if (point.isLifted) {
+            last["lifted"] = true;
+        }
     }
     out["path"] = std::move(points);
 }

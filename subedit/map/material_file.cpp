@@ -90,6 +90,16 @@ void checkChannels(const fs::path& file, const ExrHeader& header, int segments) 
             }
         }
     }
+    // Profiles cut short would be read as if they were whole.
+    for (int k = segments + 1; k <= kMaxSegments; ++k) {
+        for (int component = 0; component < 3; ++component) {
+            const std::string name = channelOf(k, component);
+            if (header.channels.contains(name)) {
+                refuse(file, fmt::format("channel '{}'", name), "is one too many",
+                       fmt::format("'subedit:segments' = {} ends at P{:02}", segments, segments));
+            }
+        }
+    }
 }
 
 /// Where each value of a texel lies among the file's channels.
@@ -142,6 +152,9 @@ public:
         }
     }
 
+    /// Values of roughness and specular that were brought into [0, 1].
+    [[nodiscard]] std::size_t clamped() const { return mClamped; }
+
 private:
     [[noreturn]] void refuseTexel(const float* row, int x, int y) const {
         for (std::size_t i = 0; i < mOrder.profile.size(); ++i) {
@@ -160,7 +173,7 @@ private:
     }
 
     void readUnit(const float* row, int channel, const char* name, int x, int y,
-                  std::vector<float>& out) const {
+                  std::vector<float>& out) {
         if (channel < 0) {
             return;
         }
@@ -170,15 +183,18 @@ private:
                    fmt::format("is not finite at texel ({}, {})", x, y));
         }
         out.push_back(std::clamp(value, 0.0f, 1.0f));
+        mClamped += out.back() != value ? 1 : 0;
     }
 
     const fs::path& mFile;
     const ChannelOrder& mOrder;
     std::size_t mChannels;
     MaterialMap& mMap;
+    std::size_t mClamped = 0;
 };
 
-void readPixels(const fs::path& file, MaterialMap& map) {
+/// @return how many values of roughness and specular were brought into [0, 1]
+std::size_t readPixels(const fs::path& file, MaterialMap& map) {
     const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(file.string());
     if (!input) {
         refuse(file, "", "cannot be read: " + OIIO::geterror());
@@ -213,6 +229,7 @@ void readPixels(const fs::path& file, MaterialMap& map) {
             rows.read(band.data() + rowValues * static_cast<std::size_t>(row - y), row);
         }
     }
+    return rows.clamped();
 }
 
 void reportAlbedo(const MaterialMap& map, std::vector<std::string>& warnings) {
@@ -343,9 +360,14 @@ MaterialMap readMaterial(const fs::path& file, std::vector<std::string>* warning
     const ExrHeader header = readExrHeader(file);
     MaterialMap map = readAttributes(file, header);
     checkChannels(file, header, map.segments);
-    readPixels(file, map);
+    const std::size_t clamped = readPixels(file, map);
     if (warnings != nullptr) {
         reportAlbedo(map, *warnings);
+        if (clamped > 0) {
+            warnings->push_back(fmt::format(
+                "{} values of roughness and specular are outside 0 to 1 and were clamped",
+                clamped));
+        }
     }
     return map;
 }

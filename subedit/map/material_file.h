@@ -17,7 +17,8 @@ enum class StoredPrecision { Half, Float };
 /// @throws InputError naming file, channel or attribute, and reason
 [[nodiscard]] MaterialMap readMaterial(const std::filesystem::path& file);
 
-/// As above; also reports what is read but should be looked at: profiles of albedo above 1.
+/// As above; also reports what is read but should be looked at: profiles of albedo above 1, and
+/// roughness and specular outside [0, 1], which are clamped.
 /// @param warnings lines without the file's name are appended
 [[nodiscard]] MaterialMap readMaterial(const std::filesystem::path& file,
                                        std::vector<std::string>* warnings);

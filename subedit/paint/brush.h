@@ -26,6 +26,7 @@ struct StrokePoint {
     glm::vec3 normal{0.0f};           ///< unit length; zero takes that of the nearest texel
     std::optional<glm::vec2> uv = {}; ///< v down, in [0, 1]
     float pressure = 1.0f;            ///< scales the flow, in [0, 1]
+    bool isLifted = false; ///< the hand came through the air: nothing is painted on the way to it
     bool operator==(const StrokePoint&) const = default;
 };
 

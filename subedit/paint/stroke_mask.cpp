@@ -122,7 +122,7 @@ void StrokeMask::add(const StrokePoint& given) {
         return;
     }
     const StrokePoint& point = *resolved;
-    if (!mLast) {
+    if (!mLast || point.isLifted) {
         addMirrored({point.positionMm, point.normal, mBrush.flow * point.pressure});
         mUntilNextMm = mBrush.spacing * mBrush.radiusMm;
         mLast = point;

@@ -151,6 +151,47 @@ TEST_F(BadInput, Outputs) {
     EXPECT_EQ(folder.entryCount(), 1u);
 }
 
+TEST_F(BadInput, OutputsThatAreOtherFiles) {
+    const auto isSame = [](const char* name) {
+        return HasSubstr("is the same file as " + std::string(name));
+    };
+    const std::string model = textFile("m.obj", kTriangle);
+    const std::string sky = file("sky.exr");
+    writeExr(sky, uniformImage(8, 4, {"R", "G", "B"}, {1, 1, 1}));
+    std::filesystem::copy_file(std::filesystem::path(CELADON_SOURCE_DIR) /
+                                   "materials/jade.subedit.exr",
+                               folder / "m_1.subedit.exr");
+    std::filesystem::create_symlink("m_1.subedit.exr", folder / "link.exr");
+    const std::string bytes = readText(folder / "m_1.subedit.exr");
+    const std::size_t before = folder.entryCount();
+
+    expectOneLine(render({model, "-o", file("a.png"), "--stats", (folder / "./a.png").string()}), 2,
+                  isSame("--output"));
+    expectOneLine(render({model, "-o", file("a.png"), "--stats", model}), 2, isSame("MODEL"));
+    expectOneLine(render({model, "--environment", sky, "-o", sky}), 2, isSame("--environment"));
+    expectOneLine(render({model, "--material", file("m_1.subedit.exr"), "-o", file("link.exr")}), 2,
+                  isSame("--material"));
+    const std::string pattern = file("m_%d.subedit.exr");
+    expectOneLine(
+        render({model, "--frames", "1:2", "--material", file("m_1.subedit.exr"), "-o", pattern}), 2,
+        isSame("--material"));
+    EXPECT_EQ(readText(folder / "m.obj"), kTriangle);
+    EXPECT_EQ(readText(folder / "m_1.subedit.exr"), bytes);
+    EXPECT_EQ(folder.entryCount(), before);
+}
+
+TEST_F(BadInput, OptionsOfTheOtherSchemeAreSaidToHaveNoEffect) {
+    expectOneLine(render({"builtin:slab", "--alpha", "3", "--no-orientation", "-o", file("a.png")}),
+                  0, HasSubstr("--alpha, --no-orientation: of no effect without --scheme paper"));
+}
+
+TEST_F(BadInput, ASheetIsLitWhereNoLightIsGiven) {
+    const ProgramResult result =
+        render({textFile("sheet.obj", kTriangle), "-o", file("sheet.exr")});
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_THAT(result.err, testing::Not(HasSubstr("no light")));
+}
+
 TEST_F(BadInput, NoDisplayForAWindow) {
     ::unsetenv("DISPLAY");
     ::unsetenv("WAYLAND_DISPLAY");

@@ -65,7 +65,12 @@ TEST(CommandLine, NamesWhatItDoesNotKnow) {
         {{"render", "m.obj", "-o", "--aov"}, "a value is missing"},
         {{"render", "m.obj", "-o", "a.png", "--no-adaptive=1"}, "takes no value"},
         {{"compare", "a.exr"}, "two pictures"},
-        {{"compare", "a", "b", "--metric", "rsme"}, "'rsme'"},
+        {{"compare", "a", "b", "--metric", "rsme"},
+         "'rsme': is no metric; choose rmse, "
+         "relative-rmse, psnr, ssim, flip, flip-hdr,"},
+        {{"render", "m.obj", "--bogus", "--", "more"}, "'--bogus': unknown option"},
+        {{"render", "-o", "a.png", "--", "m.obj", "--aov"},
+         "'--aov': unexpected argument; see 'celadon render --help'"},
         {{"compare", "a", "b", "--fail-above", "rmse"}, "METRIC=VALUE"},
         {{"profile", "mkae"}, "'mkae': unknown command; did you mean 'make'?"},
         {{"material", "--jsno"}, "see 'celadon material --help'"},
@@ -105,6 +110,17 @@ TEST(CommandLine, RefusesOutputsBeforeTheWork) {
     EXPECT_EQ(result.exitCode, 1);
     EXPECT_THAT(result.err, HasSubstr("does not exist"));
     EXPECT_EQ(result.errorLines(), 1);
+}
+
+TEST(CommandLine, TakesPositionalsAfterTwoDashes) {
+    EXPECT_EQ(runInProcess({"material", "info", "--", "marble"}).exitCode, 0);
+    const ProgramResult dashed = runInProcess({"info", "--", "-m.obj"});
+    EXPECT_EQ(dashed.exitCode, 3);
+    EXPECT_THAT(dashed.err, HasSubstr("'-m.obj'"));
+}
+
+TEST(CommandLine, SaysThatPathsAreRoundedUp) {
+    EXPECT_THAT(runInProcess({"render", "--help"}).out, HasSubstr("rounded up to whole"));
 }
 
 TEST(CommandLine, EveryCommandCanTellWhatItDoes) {

@@ -135,6 +135,18 @@ TEST_F(CompareCommand, WritesItsNumbersToAFile) {
     EXPECT_TRUE(Json::accept(readText(folder / "n.json")));
 }
 
+TEST_F(CompareCommand, RefusesToOverwriteWhatItReads) {
+    const std::string a = file("a.png");
+    writeDisplayImage(a, noiseImage(32, 32, {"R", "G", "B"}, 1));
+    const std::string before = readText(folder / "a.png");
+    for (const char* option : {"--heatmap", "--output"}) {
+        const ProgramResult result = runInProcess({"compare", a, a, option, a});
+        EXPECT_EQ(result.exitCode, 2);
+        EXPECT_THAT(result.err, HasSubstr("is the same file as A"));
+    }
+    EXPECT_EQ(readText(folder / "a.png"), before);
+}
+
 TEST_F(CompareCommand, RefusesPicturesThatDoNotMatch) {
     const std::string a = gray("a.exr", 0.5f);
     const auto refused = [&](const std::string& other, const char* says) {

@@ -103,7 +103,7 @@ TEST_F(InfoCommand, RefusesBeforeTheWork) {
     const std::string model = cube();
     expectRefused({"info", model, "--write-atlas", file("a.ply")}, 2, "only OBJ files");
     expectRefused({"info", "marble", "--write-atlas", file("a.obj")}, 2, "needs a model");
-    expectRefused({"info", model, "--write-atlas", model}, 2, "is the model itself");
+    expectRefused({"info", model, "--write-atlas", model}, 2, "is the same file as the model");
     expectRefused({"info", model, "--write-atlas", file("absent/a.obj")}, 1, "does not exist");
     EXPECT_EQ(readText(model), kCube);
     EXPECT_EQ(folder.entryCount(), 1u);

@@ -92,9 +92,11 @@ TEST_F(MaterialCommand, InfoDrawsAThumbnailAndWarns) {
 }
 
 TEST_F(MaterialCommand, ConvertKeepsTheEnergy) {
-    const ProgramResult result = expectDone({"convert", "jade", "--size", "20x10", "--segments",
-                                             "12", "--float", "-o", file("c.subedit.exr")});
-    EXPECT_THAT(result.out, HasSubstr("20 x 10 texels, 12 segments"));
+    const ProgramResult result =
+        expectDone({"convert", "jade", "--size", "20x10", "--segments", "12", "--float",
+                    "--verbose", "-o", file("c.subedit.exr")});
+    EXPECT_EQ(result.out, ""); // it is in the file
+    EXPECT_THAT(result.err, HasSubstr("20 x 10 texels, 12 segments"));
     const MaterialMap map = readMaterial(folder / "c.subedit.exr");
     EXPECT_EQ(map.name, "jade");
     EXPECT_EQ(map.roughness.size(), 200u);
@@ -104,6 +106,17 @@ TEST_F(MaterialCommand, ConvertKeepsTheEnergy) {
                   HasSubstr("--half"));
     expectRefused({"convert", "jade", "--size", "0", "-o", file("d.subedit.exr")}, 2,
                   HasSubstr("--size"));
+}
+
+TEST_F(MaterialCommand, RefusesToOverwriteWhatItReads) {
+    test::writeText(folder / "albedo.exr", "a picture");
+    expectRefused(
+        {"bake", "--albedo", file("albedo.exr"), "--mean-free-path", "1", "-o", file("albedo.exr")},
+        2, HasSubstr("is the same file as --albedo"));
+    EXPECT_EQ(test::readText(folder / "albedo.exr"), "a picture");
+    expectDone({"convert", "jade", "--size", "2", "-o", file("c.subedit.exr")});
+    expectRefused({"export", file("c.subedit.exr"), "-o", file("c.subedit.exr")}, 2,
+                  HasSubstr("is the same file as the material"));
 }
 
 /// Pairs of a homogeneous exponential profile.
@@ -120,8 +133,9 @@ std::string responseCsv() {
 TEST_F(MaterialCommand, FitFactorsATable) {
     test::writeText(folder / "r.csv", responseCsv());
     const ProgramResult result =
-        expectDone({"fit", file("r.csv"), "--size", "1", "-o", file("r.subedit.exr")});
-    EXPECT_THAT(result.out, AllOf(HasSubstr("300 samples used"), HasSubstr("relative error")));
+        expectDone({"fit", file("r.csv"), "--size", "1", "--verbose", "-o", file("r.subedit.exr")});
+    EXPECT_EQ(result.out, "");
+    EXPECT_THAT(result.err, AllOf(HasSubstr("300 samples used"), HasSubstr("relative error")));
     const MaterialMap map = readMaterial(folder / "r.subedit.exr");
     EXPECT_NEAR(diffuseAlbedo(profileAt(map, 0, 0)).x, 2.0 * 3.14159 * 0.02 * 4.0, 0.02);
     EXPECT_EQ(map.name, "r");

@@ -92,6 +92,8 @@ TEST_F(MotionCommand, FramesOfAnAnimationStandAlone) {
     expectDone(at("f_%d.exr", {"--animation", "0", "--frames", "0:4", "--fps", "4"}));
     expectDone(at("late.exr", {"--time", "1"}));
     EXPECT_EQ(compareExitance("f_4.exr", "late.exr").rmse, 0.0);
+    expectDone(at("first_%d.exr", {"--frames", "4", "--fps", "4"})); // plays it unasked, as --time
+    EXPECT_EQ(compareExitance("first_4.exr", "late.exr").rmse, 0.0);
     EXPECT_GT(compareExitance("f_0.exr", "f_4.exr").relativeRmse, 0.05);
 }
 

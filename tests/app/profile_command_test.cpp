@@ -97,13 +97,23 @@ TEST_F(ProfileCommand, FitKeepsTheAlbedoAndReportsItsError) {
         expectDone(make({"--model", model, "-o", file("p.csv")}));
         const ProgramResult result =
             expectDone({"fit", file("p.csv"), "-o", file("p.subedit.exr")});
-        EXPECT_THAT(result.out, AllOf(HasSubstr("rms error"), HasSubstr("misplaced")));
+        EXPECT_EQ(result.out, ""); // it is in the file
         EXPECT_EQ(result.err, "");
+        EXPECT_THAT(expectDone({"fit", file("p.csv")}).out,
+                    AllOf(HasSubstr("rms error"), HasSubstr("misplaced")));
         const double total = measuredCurves(readProfileCsv(folder / "p.csv"))[0].total;
         const MaterialMap map = readMaterial(folder / "p.subedit.exr");
         EXPECT_NEAR(diffuseAlbedo(profileAt(map, 0, 0)).x / total, 1.0, 1e-3) << model;
         EXPECT_EQ(map.name, "p");
     }
+}
+
+TEST_F(ProfileCommand, MakeLeavesStdoutToResults) {
+    const ProgramResult quiet = expectDone(make({"-o", file("p.subedit.exr")}));
+    EXPECT_EQ(quiet.out + quiet.err, "");
+    const ProgramResult verbose = expectDone(make({"-o", file("p.subedit.exr"), "--verbose"}));
+    EXPECT_EQ(verbose.out, "");
+    EXPECT_THAT(verbose.err, HasSubstr("rms error"));
 }
 
 TEST_F(ProfileCommand, FitRefusesWhatIsNoTable) {
@@ -133,6 +143,9 @@ TEST_F(ProfileCommand, TablesOfSeveralMaterialsAndRanges) {
     expectDone({"table", "marble", "-o", file("t.svg")});
     EXPECT_THAT(test::readText(folder / "t.svg"), HasSubstr("Mean profile of marble"));
     expectRefused({"table"}, 2, HasSubstr("no material"));
+    expectDone(make({"-o", file("m.subedit.exr")}));
+    expectRefused({"table", file("m.subedit.exr"), "-o", file("m.subedit.exr")}, 2,
+                  HasSubstr("is the same file as a material"));
     expectRefused({"table", "marble", "--t-range", "8:2"}, 2, HasSubstr("--t-range"));
     expectRefused({"table", "marble", "--t-range", "8"}, 2, HasSubstr("--t-range"));
     expectRefused({"table", "marble", "-o", file("t.txt")}, 2, HasSubstr(".csv"));
@@ -155,9 +168,11 @@ TEST_F(ProfileCommand, PlotsAreDrawn) {
 }
 
 TEST_F(ProfileCommand, LutFollowsItsMapping) {
-    const ProgramResult result = expectDone({"lut", "-o", file("l.exr"), "--size", "8x4",
-                                             "--segments", "16", "--mean-free-path", "0.5:8"});
-    EXPECT_THAT(result.out, HasSubstr("0.5 mm * 16^((y + 1/2) / height)"));
+    const ProgramResult result =
+        expectDone({"lut", "-o", file("l.exr"), "--size", "8x4", "--segments", "16",
+                    "--mean-free-path", "0.5:8", "--verbose"});
+    EXPECT_EQ(result.out, "");
+    EXPECT_THAT(result.err, HasSubstr("0.5 mm * 16^((y + 1/2) / height)"));
     const FloatImage image = readImage(folder / "l.exr").image;
     ASSERT_EQ(image.width, 8);
     ASSERT_EQ(image.height, 4);

@@ -46,6 +46,24 @@ TEST(RenderOptions, TakeAMediumForAMaterial) {
     EXPECT_DOUBLE_EQ(o.noise, 0.02);
 }
 
+TEST(RenderOptions, TellWhichHaveNoEffectInTheHierarchicalScheme) {
+    const std::vector<std::string> all{"--alpha",         "3",   "--epsilon",       "0.1",
+                                       "--discontinuity", "0.1", "--no-orientation"};
+    const auto idle = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = all;
+        words.insert(words.end(), more.begin(), more.end());
+        return idleOptions(parse(words));
+    };
+    EXPECT_THAT(idle({}),
+                ElementsAre("--alpha", "--epsilon", "--discontinuity", "--no-orientation"));
+    EXPECT_THAT(idle({"--aov"}), ElementsAre("--alpha", "--discontinuity", "--no-orientation"));
+    EXPECT_THAT(idle({"--scheme", "paper"}), ElementsAre());
+    EXPECT_THAT(idleOptions(parse({"--table", "t.csv"})), ElementsAre("--table"));
+    EXPECT_THAT(idleOptions(parse({"--no-adaptive", "--no-multires", "--energy", "1"})),
+                ElementsAre());
+    EXPECT_THAT(idleOptions(parse({"--energy", "0.9"})), ElementsAre("--energy"));
+}
+
 TEST(RenderOptions, HaveTheDocumentedDefaults) {
     const RenderOptions o = parse({});
     EXPECT_EQ(o.model, "m.obj");
@@ -219,8 +237,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{
             {"--sequence", "f%d.ply", "--frames", "1:2"}, "--sequence", {"m.obj", "-o", "a%d.exr"}},
         Refusal{{"--sequence", "f%d.ply"}, "--frames", {"-o", "a.exr"}},
-        Refusal{{"--stats", "a.exr"}, "--stats"}, Refusal{{"--energy", "1.01"}, "--energy"},
-        Refusal{{"--samples", "0"}, "--samples"}, Refusal{{"--levels", "0"}, "--levels"},
+        Refusal{{"--energy", "1.01"}, "--energy"}, Refusal{{"--samples", "0"}, "--samples"},
+        Refusal{{"--levels", "0"}, "--levels"},
         Refusal{{"--background", "environment"}, "no environment"},
         Refusal{{"--background", "white"}, "--background"}, Refusal{{"--context", "vulkan"}, "egl"},
         Refusal{{"--solver", "x"}, "path-traced"}, Refusal{{"--solver", "path-traced"}, "--preset"},

@@ -214,6 +214,22 @@ TEST_F(MaterialFile, MissingAttributesAndChannelsAreNamed) {
         AllOf(HasSubstr("P05.R"), HasSubstr("is missing")));
 }
 
+TEST_F(MaterialFile, ChannelsBeyondTheLastKnotAreRefused) {
+    expectRefused(
+        [](std::string& bytes) { patch(bytes, "subedit:segments", "int", std::uint32_t{2}); },
+        AllOf(HasSubstr("P03.R"), HasSubstr("is one too many")));
+}
+
+TEST_F(MaterialFile, RoughnessOutsideItsRangeIsClampedAndReported) {
+    MaterialMap map = test::varyingMaterial(3, 1, 4);
+    map.roughness = {-0.5f, 0.5f, 1.5f};
+    writeMaterial(map, file, StoredPrecision::Float);
+    std::vector<std::string> warnings;
+    EXPECT_EQ(readMaterial(file, &warnings).roughness, (std::vector<float>{0.0f, 0.5f, 1.0f}));
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_THAT(warnings[0], HasSubstr("2 values of roughness and specular"));
+}
+
 TEST_F(MaterialFile, AttributesOfTheWrongTypeAreRefused) {
     expectRefused(
         [](std::string& bytes) {

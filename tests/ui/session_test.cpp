@@ -6,11 +6,14 @@
 #include "subedit/map/material_file.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/ui/ball_world.h"
+#include "ui/light_rig.h"
 #include "ui/session.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <memory>
@@ -119,6 +122,81 @@ TEST_F(SessionTest, UndoGivesTheBytesBackAndRedoTheStroke) {
     EXPECT_EQ(map().logProfile, before);
     session.execute({"edit.redo"});
     EXPECT_EQ(map().logProfile, painted);
+}
+
+TEST_F(SessionTest, StrokeWithGapsIsOneStepAndReplaysToTheByte) {
+    session.execute({"brush.change", {{"radius", 2.0}, {"opacity", 0.5}}});
+    session.execute({"operator.change", {{"name", "scale-albedo"}}}); // r_s need not grow
+    const std::vector<float> before = map().logProfile;
+    const glm::vec3 center(session.world().scatteringSphere.center);
+    const auto at = [&](float x) {
+        subedit::StrokePoint point;
+        point.normal = glm::normalize(glm::vec3(x, 0.0f, 1.0f));
+        point.positionMm = center + 20.0f * point.normal;
+        return point;
+    };
+    session.beginStroke(0, at(-1.0f), false);
+    session.addStrokePoint(at(-0.9f));
+    subedit::StrokePoint lifted = at(0.9f);
+    lifted.isLifted = true;
+    session.addStrokePoint(lifted);
+    session.addStrokePoint(at(1.0f));
+    session.endStroke();
+    EXPECT_EQ(session.activeDocument()->commandCount(), 1u);
+    const std::vector<float> painted = map().logProfile;
+    const subedit::Surface& surface = session.activeDocument()->surface();
+    const auto isPainted = [&](float x) {
+        const auto texel = surface.nearest(at(x).positionMm, at(x).normal, 2.0f);
+        const std::size_t first = *texel * static_cast<std::size_t>(map().knots()) * 3;
+        return painted[first] != before[first];
+    };
+    EXPECT_TRUE(isPainted(-0.95f));
+    EXPECT_FALSE(isPainted(0.0f));
+    EXPECT_TRUE(isPainted(0.95f));
+    const Command stroke = parseCommand(formatCommand(recorded.back()));
+    session.execute({"edit.undo"});
+    EXPECT_EQ(map().logProfile, before);
+    session.execute(stroke);
+    EXPECT_EQ(map().logProfile, painted);
+}
+
+TEST_F(SessionTest, SelectingNeedsNothingThatTheOperatorLacks) {
+    for (const char* op : {"gradient", "clone", "pattern"}) {
+        session.execute({"tool.choose", {{"name", "paint"}}});
+        session.execute({"operator.change", {{"name", op}}});
+        EXPECT_THROW(paintStroke(), UsageError) << op;
+        session.execute({"tool.choose", {{"name", "select"}}});
+        paintStroke();
+        EXPECT_EQ(session.undoTitle(), "select stroke");
+    }
+    EXPECT_FALSE(session.isModified());
+}
+
+TEST_F(SessionTest, StepsAreCalledAsTheOperatorsAreOnScreen) {
+    paintStroke();
+    EXPECT_EQ(session.undoTitle(), "Profile stroke");
+    for (const std::string_view edit : subedit::kOperatorNames) {
+        EXPECT_NE(std::ranges::find(paintOperators(), edit, &PaintOperatorName::edit),
+                  paintOperators().end())
+            << edit;
+    }
+}
+
+TEST_F(SessionTest, NoticesGoAfterAWhileButForErrors) {
+    using namespace std::chrono_literals;
+    session.notify(Notice::Kind::Info, "saved");
+    EXPECT_FALSE(session.perform({"brush.change", {{"radius", -1.0}}}));
+    EXPECT_FALSE(session.perform({"file.open", {{"model", "absent"}}}));
+    ASSERT_EQ(session.notices.size(), 3u);
+    EXPECT_EQ(session.notices[1].kind, Notice::Kind::Warning); // nothing failed
+    EXPECT_EQ(session.notices[2].kind, Notice::Kind::Error);
+    const auto now = std::chrono::steady_clock::now();
+    EXPECT_FALSE(session.dropOldNotices(now));
+    EXPECT_TRUE(session.dropOldNotices(now + 10s));
+    EXPECT_EQ(session.notices.size(), 2u);
+    EXPECT_TRUE(session.dropOldNotices(now + 30s));
+    ASSERT_EQ(session.notices.size(), 1u);
+    EXPECT_EQ(session.notices[0].kind, Notice::Kind::Error);
 }
 
 TEST_F(SessionTest, TwoMaterialsAreUndoneInOrderAndSavedEachForItself) {
@@ -344,6 +422,10 @@ TEST_F(SessionTest, ProfileKeepsItsRangeWhenItsAlbedoChanges) {
     // A knot that would send back more light than came in is held at albedo 1.
     session.execute({"profile.knot", {{"channel", 0}, {"knot", 3}, {"log", 5.0}}});
     EXPECT_LE(subedit::diffuseAlbedo(session.paint.primary.profile.view()).r, 1.0);
+    // So is a radius that is too short for the knots to hold the light of.
+    session.execute({"profile.change", {{"albedo", {0.999, 0.9, 0.9}}}});
+    session.execute({"profile.change", {{"radius", {0.001, 1.0, 1.0}}}});
+    EXPECT_LE(subedit::diffuseAlbedo(session.paint.primary.profile.view()).r, 1.0);
 }
 
 /// At a place of the ball, as a click sends it.
@@ -500,6 +582,25 @@ TEST_F(SessionTest, ExportCanBeOpenedAgainWithTheSameMaterial) {
     const glm::dvec3 by = scene.rig->deformers->front().moves.front().by.vector(0.0);
     EXPECT_NEAR(by.y, 0.4 * 10.0 / 1000.0, 1e-9);
     EXPECT_FALSE(session.perform({"file.export", {{"file", "/nowhere/ball.gltf"}}}));
+}
+
+TEST_F(SessionTest, ExposureFitsTheLightsThatAModelBrings) {
+    BoundingSphere object;
+    object.radius = 500.0;
+    Light light;
+    light.color = glm::dvec3(5.0);
+    EXPECT_EQ(fittingExposureEv({}, object), 0.0f);
+    EXPECT_EQ(fittingExposureEv(std::array{light}, object), 0.0f);
+    light.color = glm::dvec3(40.0);
+    EXPECT_EQ(fittingExposureEv(std::array{light}, object), -3.0f);
+    light.kind = Light::Kind::Point; // at 2 m, a quarter
+    light.color = glm::dvec3(48.0);
+    light.position = {0, 0, 2000.0};
+    EXPECT_EQ(fittingExposureEv(std::array{light}, object), -1.0f);
+    light.color = glm::dvec3(1.25);
+    EXPECT_EQ(fittingExposureEv(std::array{light}, object), 4.0f);
+    light.position = {0, 0, 1.0}; // within: no nearer than the surface
+    EXPECT_EQ(fittingExposureEv(std::array{light}, object), 0.0f);
 }
 
 TEST_F(SessionTest, TurntableTurnsLightsWithTheCamera) {

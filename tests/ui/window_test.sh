@@ -60,8 +60,9 @@ stroke() { # a short stroke across the middle of the viewport
     xdotool mouseup 1
 }
 
-save_as() { # save_as FILE
-    xdotool key ctrl+s
+save_as() { # save_as FILE [KEY]: the name that is proposed is typed over
+    await 30 '"typing":false'
+    xdotool key "${2:-ctrl+s}"
     await 30 '"typing":true'
     xdotool type --delay 20 "$1"
     xdotool key Return
@@ -160,6 +161,42 @@ if /usr/bin/python3 -c 'import Xlib' 2>/dev/null; then # files dragged from anot
     xdotool key ctrl+shift+z
     await 30 '"strokes":1'
 fi
+kill_editor
+rm -f "$folder"/state/celadon/*.journal
+
+# A second save: the name that is proposed is typed over.
+start
+stroke
+await 30 '"strokes":1'
+save_as "$folder/first.subedit.exr"
+await 30 'Saved .*first.subedit.exr'
+save_as "$folder/again.exr" ctrl+shift+s
+await 30 'Saved .*again.subedit.exr'
+[ -s "$folder/again.subedit.exr" ] || fail "the second save went elsewhere"
+
+# One drag is one step, though it leaves the model and comes back. Enter in the dialog opens, and does
+# not answer the question that follows.
+xdotool mousemove 280 300 mousedown 1
+for place in "200 380" "100 480" "6 560" "100 480" "200 380" "280 300"; do
+    xdotool mousemove $place
+done
+xdotool mouseup 1
+await 30 '"strokes":2'
+await 30 '"modified":true'
+touch "$folder/other.obj"
+xdotool key ctrl+o
+await 30 '"typing":true'
+xdotool type --delay 20 "$folder/other.obj"
+xdotool key Return
+await 30 '"typing":false'
+await 30 '"asking":true'
+xdotool key Escape
+await 30 '"asking":false'
+await 5 '"modified":true'
+cmp "$folder/first.subedit.exr" "$folder/again.subedit.exr" || fail "Enter saved over a file"
+xdotool key ctrl+z
+await 30 '"strokes":1'
+await 30 '"modified":false'
 kill_editor
 rm -f "$folder"/state/celadon/*.journal
 

@@ -1,26 +1,23 @@
 #include "ui/panels/file_dialog.h"
 
+#include "ui/file_names.h"
 #include "ui/theme.h"
 #include "ui/widgets/fields.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <cctype>
+#include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <utility>
 
 namespace celadon::ui {
 
 namespace {
-
-std::string lowered(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 std::string sizeText(std::uintmax_t bytes) {
     const auto amount = static_cast<double>(bytes);
@@ -41,6 +38,7 @@ void FileDialog::open(Kind kind, const std::string& title, std::vector<std::stri
     mWarnedOf.clear();
     mIsOpen = true;
     mAppears = true;
+    ++mOpenings;
     mTakesFocus = true;
     std::error_code failed;
     enter(std::filesystem::is_directory(folder, failed) ? folder
@@ -59,11 +57,7 @@ void FileDialog::enter(const std::filesystem::path& folder) {
         if (entry.name.starts_with('.')) {
             continue;
         }
-        const std::string lower = lowered(entry.name);
-        const bool fits = mSuffixes.empty() ||
-                          std::any_of(mSuffixes.begin(), mSuffixes.end(),
-                                      [&](const auto& suffix) { return lower.ends_with(suffix); });
-        if (!entry.isFolder && !fits) {
+        if (!entry.isFolder && !endsInOne(entry.name, mSuffixes)) {
             continue;
         }
         entry.bytes = entry.isFolder ? 0 : it->file_size(ignored);
@@ -85,8 +79,7 @@ void FileDialog::choose() {
     if (mName.empty()) {
         return;
     }
-    std::filesystem::path file =
-        std::filesystem::path(mName).is_absolute() ? std::filesystem::path(mName) : mFolder / mName;
+    std::filesystem::path file = mFolder / mName; // which is mName where that is absolute
     std::error_code failed;
     if (std::filesystem::is_directory(file, failed)) {
         mName.clear();
@@ -94,14 +87,17 @@ void FileDialog::choose() {
         return;
     }
     if (mKind == Kind::Save) {
-        const std::string lower = lowered(file.filename().string());
-        const bool hasSuffix = mSuffixes.empty() || std::any_of(mSuffixes.begin(), mSuffixes.end(),
-                                                                [&](const auto& suffix) {
-                                                                    return lower.ends_with(suffix);
-                                                                });
-        if (!hasSuffix) {
-            file += mSuffixes.front();
-            mName += mSuffixes.front();
+        const std::optional<std::string> completed = completedName(mName, mSuffixes);
+        if (!completed) {
+            mProblem =
+                fmt::format("Another kind of file: let it end in {}.", fmt::join(mSuffixes, ", "));
+            return;
+        }
+        mName = *completed;
+        file = mFolder / mName;
+        if (!std::filesystem::is_directory(file.parent_path(), failed)) {
+            mProblem = "There is no such folder.";
+            return;
         }
         if (std::filesystem::exists(file, failed) && file != mWarnedOf) {
             mWarnedOf = file;
@@ -200,7 +196,11 @@ void FileDialog::draw(float scale) {
             ImGui::SetKeyboardFocusHere();
         }
         ImGui::SetNextItemWidth(-1.0f);
+        // Dear ImGui keeps what was typed, and what was selected, by the field's ID: each opening
+        // has its own, so that the proposed name is there, and is what typing replaces.
+        ImGui::PushID(mOpenings);
         ImGui::InputTextWithHint("##name", "File name or path", &mName);
+        ImGui::PopID();
         const auto isPressed = [](ImGuiKey key) {
             return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false);
         };

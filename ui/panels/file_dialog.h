@@ -42,6 +42,7 @@ private:
     std::function<void(const std::filesystem::path&)> mDone;
     bool mIsOpen = false;
     bool mAppears = false;
+    int mOpenings = 0;               ///< so far
     bool mTakesFocus = false;        ///< the name, with the next frame
     std::filesystem::path mWarnedOf; ///< that it exists: once more, and it is replaced
 };

@@ -75,14 +75,17 @@ void drawSaving(const LayoutContext& context) {
                                                     ImGuiInputTextFlags_EnterReturnsTrue);
     tooltip("Keeps what is painted among your own materials, below");
     ImGui::SameLine(0.0f, gap);
-    const bool isName = !name.empty() && name.find('/') == std::string::npos;
+    const bool hasSlash = name.find('/') != std::string::npos;
+    const bool isName = !name.empty() && !hasSlash;
     ImGui::BeginDisabled(!isName);
     if ((ImGui::Button("Save as new", {button, 0.0f}) || isEntered) && isName) {
         context.actions.saveAsNew(name);
         name.clear();
     }
     ImGui::EndDisabled();
-    tooltip((dataFolder() / "materials").c_str());
+    tooltip(hasSlash       ? "A name without '/': it becomes that of a file"
+            : name.empty() ? "Give it a name first"
+                           : (dataFolder() / "materials").c_str());
 }
 
 /// The folders are read again now and then, as others may write there.

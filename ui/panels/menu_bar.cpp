@@ -164,9 +164,9 @@ void drawViewMenu(const LayoutContext& context) {
     if (item("Frame the model", keys.text(Action::Frame), "All of it, from where one looks")) {
         session.perform({"camera.frame", {{"aspect", session.aspect}}});
     }
-    if (item("Play", keys.text(Action::Play), "The animation of the glTF, or keyed deformers",
-             session.motion.isPlaying,
-             session.hasWorld() && session.mover().durationSeconds() > 0.0)) {
+    if (item("Play", keys.text(Action::Play),
+             "The animation of the glTF, or keyed deformers; a model at rest turns",
+             session.motion.isPlaying, session.hasWorld())) {
         context.actions.togglePlay();
     }
     if (item("Turntable", keys.text(Action::Turntable), "Turns around the model",

@@ -6,13 +6,10 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <chrono>
 
 namespace celadon::ui {
 
 namespace {
-
-constexpr std::chrono::seconds kInfoTime{8};
 
 ImVec4 colorOf(Notice::Kind kind) {
     return kind == Notice::Kind::Error     ? palette().error
@@ -24,10 +21,6 @@ ImVec4 colorOf(Notice::Kind kind) {
 
 void drawNotices(const LayoutContext& context) {
     std::vector<Notice>& notices = context.session.notices;
-    const auto now = std::chrono::steady_clock::now();
-    std::erase_if(notices, [&](const Notice& notice) {
-        return notice.kind == Notice::Kind::Info && now - notice.since > kInfoTime;
-    });
     const ViewportRect& rect = context.viewport.rect();
     const float scale = context.scale;
     const bool isNamed = context.session.view.mode.mode != ViewMode::Picture;

@@ -21,9 +21,9 @@ void Question::draw(float scale) {
         return;
     }
     const std::string id = mTitle + "##question";
-    if (mAppears) {
+    const bool isNew = std::exchange(mAppears, false);
+    if (isNew) {
         ImGui::OpenPopup(id.c_str());
-        mAppears = false;
     }
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
@@ -55,9 +55,12 @@ void Question::draw(float scale) {
                 ImGui::PopStyleColor();
             }
         }
-        if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) {
+        const auto isPressed = [isNew](ImGuiKey key) { // not by what led to the question
+            return !isNew && ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false);
+        };
+        if (isPressed(ImGuiKey_Escape)) {
             chosen = count - 1;
-        } else if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false)) {
+        } else if (isPressed(ImGuiKey_Enter) || isPressed(ImGuiKey_KeyPadEnter)) {
             chosen = 0;
         }
         if (chosen >= 0) {

@@ -69,6 +69,27 @@ TEST(AtomicFile, FollowsLinks) {
     EXPECT_EQ(readText(folder / "elsewhere/real.txt"), "new");
 }
 
+TEST(AtomicFile, FollowsLinksToWhatDoesNotExistYet) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / "elsewhere");
+    fs::create_symlink("second.txt", folder / "first.txt");
+    fs::create_symlink("elsewhere/real.txt", folder / "second.txt");
+    writeFileAtomically(folder / "first.txt", "new");
+    EXPECT_TRUE(fs::is_symlink(folder / "first.txt"));
+    EXPECT_TRUE(fs::is_symlink(folder / "second.txt"));
+    EXPECT_EQ(readText(folder / "elsewhere/real.txt"), "new");
+}
+
+TEST(AtomicFile, NamesWhereALinkLeads) {
+    const TemporaryFolder folder;
+    fs::create_symlink("missing/a.txt", folder / "lost.txt");
+    EXPECT_THAT(messageOf<OutputError>([&] { checkWritable(folder / "lost.txt"); }),
+                HasSubstr((folder / "missing").string() + "' does not exist"));
+    fs::create_symlink("circle.txt", folder / "circle.txt");
+    EXPECT_THAT(messageOf<OutputError>([&] { checkWritable(folder / "circle.txt"); }),
+                HasSubstr("cannot be followed"));
+}
+
 TEST(AtomicFile, WorksOnABareName) {
     const TemporaryFolder folder;
     const fs::path before = fs::current_path();

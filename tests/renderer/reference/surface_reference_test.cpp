@@ -76,6 +76,18 @@ TEST(SurfaceReference, FluxIsWhatTheGeometryIntercepts) {
     EXPECT_NEAR(totalFlux(reference.samplePatches(lights, 100000, 3)).x / solidAngle, 1.0, 3e-3);
 }
 
+TEST(SurfaceReference, SaysHowMuchFluxEnters) {
+    const World world =
+        makeWorld({{makeSphere(50, 64)}}, {makeHomogeneous({1, 1, 1}, 20, {0.9, 0.7, 0.5}, 1.0f)});
+    const double crossSection = std::numbers::pi * 50 * 50 * 1e-6;
+    const std::array lights{directionalLight({1, 2, -1}, {1, 2, 3})};
+    const glm::dvec3 flux = SurfaceReference(world)
+                                .solve(randomExitPoints(world, 10), lights, {.samples = 20000})
+                                .litFlux;
+    EXPECT_NEAR(flux.x / crossSection, 1.0, 1e-2);
+    EXPECT_NEAR(flux.z / flux.x, 3.0, 1e-5);
+}
+
 TEST(SurfaceReference, OpaquePartsShadowAndGiveNothing) {
     const std::vector<MaterialPointer> materials{makeHomogeneous({1, 1, 1}, 20)};
     const std::array lights{directionalLight({0, 0, -1})};

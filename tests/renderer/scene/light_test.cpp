@@ -110,12 +110,44 @@ TEST(SpotFactor, NarrowConesKeepTheirIntensity) {
 TEST(DefaultLight, ComesFromAboveAndBehindTheObject) {
     Camera camera;
     camera.eye = {3.0, 2.0, 5.0};
-    const Light light = defaultLight(camera);
+    const Light light = defaultLight(camera, World());
     const CameraFrame frame = cameraFrame(camera);
     EXPECT_NEAR(glm::length(light.direction), 1.0, 1e-12);
     EXPECT_LT(glm::dot(light.direction, frame.forward), 0.0); // towards the viewer
     EXPECT_LT(glm::dot(light.direction, frame.up), 0.0);
     EXPECT_GT(light.color.x, 0.0);
+}
+
+/// A triangle that faces +z.
+World makeSheet() {
+    World world;
+    WorldMesh& part = world.meshes.emplace_back();
+    part.scattering = 0;
+    part.mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    part.mesh.indices = {0, 1, 2};
+    world.looks.emplace_back();
+    return world;
+}
+
+TEST(DefaultLight, ComesFromTheCameraToASheetThatItWouldNotReach) {
+    Camera camera;
+    camera.eye = {3.0, 2.0, 5.0};
+    EXPECT_EQ(defaultLight(camera, makeSheet()).direction, cameraFrame(camera).forward);
+}
+
+TEST(DefaultLight, StaysBehindWhatItReaches) {
+    Camera camera;
+    camera.eye = {3.0, 2.0, 5.0};
+    const glm::dvec3 usual = defaultLight(camera, World()).direction;
+    World doubleSided = makeSheet();
+    doubleSided.looks[0].doubleSided = true;
+    EXPECT_EQ(defaultLight(camera, doubleSided).direction, usual);
+    World closed = makeSheet();
+    closed.meshes[0].mesh.indices = {0, 1, 2, 0, 2, 1};
+    EXPECT_EQ(defaultLight(camera, closed).direction, usual);
+    World opaque = makeSheet();
+    opaque.meshes[0].scattering = -1;
+    EXPECT_EQ(defaultLight(camera, opaque).direction, usual);
 }
 
 } // namespace

@@ -396,8 +396,9 @@ TEST_F(ShaderPairs, SurfacesCompileWithEveryDefineOfAScene) {
         library.define(scene);
         const gl::ShaderDefine count{"MATERIAL_COUNT", "2"};
         const gl::ShaderDefine camera{"CAMERA", "1"};
-        EXPECT_NO_THROW(
-            gl::Program("light", library, {"surface.vert", "irradiance_buffer.frag"}, {count}));
+        const gl::ShaderDefine patch{"PATCH_VARIANCE", "1.0"};
+        EXPECT_NO_THROW(gl::Program("light", library, {"surface.vert", "irradiance_buffer.frag"},
+                                    {count, patch}));
         EXPECT_NO_THROW(gl::Program("shadow", library, {"surface.vert", "shadow_map.frag"}));
         EXPECT_NO_THROW(gl::Program("view", library, {"surface.vert", "splatting_buffer.frag"},
                                     {count, camera}));
@@ -411,12 +412,14 @@ TEST_F(ShaderPairs, ProgramsCompileForEveryNumberOfMaterials) {
     for (const char* const count : {"1", "2", "40"}) {
         SCOPED_TRACE(count);
         const std::vector<gl::ShaderDefine> base{{"MATERIAL_COUNT", count}};
+        auto light = base;
+        light.push_back({"PATCH_VARIANCE", "1.0"});
         auto camera = base;
         camera.push_back({"CAMERA", "1"});
         auto leaf = base;
         leaf.push_back({"LEAF", "1"});
         EXPECT_NO_THROW(
-            gl::Program("light", library, {"surface.vert", "irradiance_buffer.frag"}, base));
+            gl::Program("light", library, {"surface.vert", "irradiance_buffer.frag"}, light));
         EXPECT_NO_THROW(
             gl::Program("view", library, {"surface.vert", "splatting_buffer.frag"}, camera));
         EXPECT_NO_THROW(gl::Program("node profile", library, {"node_profile.comp"}, base));

@@ -288,7 +288,7 @@ TEST(Document, SelectionBoundsEditsAndIsUndone) {
     EXPECT_NE(document.material().logKnot(20, 20, 0), original.logKnot(20, 20, 0));
     EXPECT_EQ(document.material().logKnot(40, 20, 0), original.logKnot(40, 20, 0));
     ASSERT_TRUE(document.undo());
-    EXPECT_EQ(document.undoTitle(), "select stroke");
+    EXPECT_EQ(commandTitle(*document.undoCommand()), "select stroke");
     ASSERT_TRUE(document.undo());
     EXPECT_EQ(document.selection(), WeightMask::full(kSize, kSize));
     EXPECT_EQ(document.material().logProfile, original.logProfile);

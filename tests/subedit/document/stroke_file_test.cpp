@@ -20,6 +20,8 @@ StoredProfile profile() {
 StrokeFile everything() {
     const StrokePoint a{{0.1f, -1.0f / 3.0f, 7.7f}, {0.6f, 0.0f, 0.8f}, {}, 0.3f};
     const StrokePoint b{{}, {}, glm::vec2(0.1f, 2.0f / 3.0f), 1.0f};
+    StrokePoint lifted = a;
+    lifted.isLifted = true;
     const StrokePoint place{{0.1f, -1.0f / 3.0f, 7.7f}, {0.6f, 0.0f, 0.8f}, {}, 1.0f};
     Mirror mirror;
     mirror.axes = {true, false, true};
@@ -38,7 +40,7 @@ StrokeFile everything() {
              Heterogeneity{-0.3f, 2.2f}, Clone{{place, b, 33.3f}},
              TransferPattern{{b, place, -12.1f}, 3.3f, 1.1f}}) {
         file.commands.push_back(ApplyCommand{op});
-        file.commands.push_back(StrokeCommand{op, brush, mirror, {a, b}});
+        file.commands.push_back(StrokeCommand{op, brush, mirror, {a, b, lifted}});
         file.commands.push_back(PropagateCommand{op, propagation});
         file.commands.push_back(StampCommand{op,
                                              {place,
@@ -176,6 +178,8 @@ TEST(StrokeFile, RefusalsNameThePlaceAndTheReason) {
     EXPECT_THAT(refusal(stroke(R"({"radiusMm": 1})",
                                R"([{"positionMm": [0, 0, 0], "normal": [0, 0, 0]}])")),
                 at("/commands/0/path/0/normal"));
+    EXPECT_THAT(refusal(stroke(R"({"radiusMm": 1})", R"([{"uv": [0, 0], "lifted": 1}])")),
+                at("/commands/0/path/0/lifted: is 1, not true or false"));
     EXPECT_THAT(refusal(stroke(R"({"radiusMm": 1})", R"([{"pressure": 1}])")),
                 at("/commands/0/path/0/positionMm: is missing"));
     EXPECT_THAT(refusal(withCommand(R"({"command": "select", "step": "grow", "distanceMm": 0})")),

@@ -152,6 +152,23 @@ TEST(StrokeMask, OpacityBoundsWhatManyDabsReach) {
     EXPECT_GT(weightAt(mask, surface, 11, 16), 0.58f);
 }
 
+TEST(StrokeMask, NothingIsPaintedOnTheWayToALiftedPoint) {
+    const Surface surface(makeFlatSurface(96, 32, 96.0f));
+    StrokeMask mask(surface, {.radiusMm = 4.0f, .opacity = 0.6f});
+    mask.add(at(surface, 10, 16));
+    StrokePoint lifted = at(surface, 60, 16);
+    lifted.isLifted = true;
+    mask.add(lifted);
+    EXPECT_EQ(weightAt(mask, surface, 35, 16), 0.0f);
+    EXPECT_FLOAT_EQ(weightAt(mask, surface, 60, 16), 0.6f);
+    mask.add(at(surface, 80, 16)); // from there it goes on
+    EXPECT_FLOAT_EQ(weightAt(mask, surface, 70, 16), 0.6f);
+    lifted = at(surface, 10, 16);
+    lifted.isLifted = true;
+    mask.add(lifted); // back where it was: the opacity bounds the whole stroke
+    EXPECT_FLOAT_EQ(weightAt(mask, surface, 10, 16), 0.6f);
+}
+
 TEST(StrokeMask, MirrorsAcrossPlanes) {
     const Surface surface(makeFlatSurface(64, 64, 64.0f));
     Mirror mirror;
