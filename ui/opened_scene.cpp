@@ -4,6 +4,9 @@
 #include "renderer/scene/surface_atlas_of_world.h"
 #include "subedit/errors.h"
 #include "subedit/map/material_convert.h"
+#include "subedit/radius_map.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -11,10 +14,44 @@ namespace celadon::ui {
 
 using subedit::MaterialMap;
 
+namespace {
+
+/// Of a few texels: the shortest channel's on average, 0 for a black map.
+double shortRadiusMm(const MaterialMap& map) {
+    constexpr int kAcross = 4;
+    double sum = 0.0;
+    for (int i = 0; i < kAcross * kAcross; ++i) {
+        const glm::dvec3 R_P = subedit::effectiveRadiusMm(subedit::profileAt(
+            map, i % kAcross * map.width / kAcross, i / kAcross * map.height / kAcross));
+        sum += std::min({R_P.r, R_P.g, R_P.b});
+    }
+    return sum / (kAcross * kAcross);
+}
+
+/// Where no light view of a quick picture has texels as fine as a range, they show.
+void warnOfLargeModel(World& world) {
+    constexpr double kFinestTexels = 2048.0; // across the model
+    constexpr double kTexelsOfRange = 2.0;
+    const double diameterMm = 2.0 * world.scatteringSphere.radius;
+    for (const MaterialPointer& material : world.materials) {
+        const double radiusMm = shortRadiusMm(*material);
+        if (radiusMm > 0.0 && radiusMm * kFinestTexels < kTexelsOfRange * diameterMm) {
+            world.warnings.push_back(fmt::format(
+                "'{}' scatters over {:.2g} mm, too little to see on a model of {:.4g} mm, and "
+                "pictures "
+                "show a lattice. If it is meant to be smaller, open it with --diameter or --scale",
+                material->name, radiusMm, diameterMm));
+        }
+    }
+}
+
+} // namespace
+
 OpenedScene prepareScene(World world, bool paintable) {
     if (world.rig && world.rig->deformers) { // handles that are stored are prepared here
         static_cast<void>(Motion(world));
     }
+    warnOfLargeModel(world);
     OpenedScene scene;
     for (std::size_t i = 0; i < world.materials.size(); ++i) {
         const MaterialMap& map = *world.materials[i];

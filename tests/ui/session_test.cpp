@@ -4,9 +4,12 @@
 #include "subedit/errors.h"
 #include "subedit/map/material_convert.h"
 #include "subedit/map/material_file.h"
+#include "subedit/radius_map.h"
+#include "tests/support/materials.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/ui/ball_world.h"
 #include "ui/light_rig.h"
+#include "ui/opened_scene.h"
 #include "ui/session.h"
 
 #include <gtest/gtest.h>
@@ -624,6 +627,20 @@ TEST_F(SessionTest, EveryCommandHasASummary) {
         EXPECT_FALSE(entry.summary.empty()) << name;
         EXPECT_NE(name.find('.'), std::string::npos) << name;
     }
+}
+
+TEST(OpenedScene, AModelTooLargeForItsMaterialIsSaid) {
+    World world;
+    world.materials = {test::materialNamed("medium")};
+    const glm::dvec3 R_P =
+        subedit::effectiveRadiusMm(subedit::profileAt(*world.materials[0], 0, 0));
+    const double shortestMm = std::min({R_P.r, R_P.g, R_P.b});
+    world.scatteringSphere.radius = 50.0 * shortestMm;
+    EXPECT_TRUE(prepareScene(world, false).world.warnings.empty());
+    world.scatteringSphere.radius = 5000.0 * shortestMm;
+    const std::vector<std::string> warnings = prepareScene(world, false).world.warnings;
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("--diameter"), std::string::npos);
 }
 
 TEST(OpenedScene, EnlargingKeepsTheMaterialAtTheCentersOfItsTexels) {
