@@ -20,7 +20,8 @@ bool isSameFile(const fs::path& a, const fs::path& b) {
     const auto canonical = [&](const fs::path& file) { // empty where it cannot be told
         return fs::weakly_canonical(fs::absolute(file, error), error);
     };
-    return !canonical(a).empty() && canonical(a) == canonical(b);
+    const fs::path resolved = canonical(a);
+    return !resolved.empty() && resolved == canonical(b);
 }
 
 void refuseSame(const NamedFile& output, const NamedFile& other) {

@@ -30,7 +30,7 @@ struct CompressionTable {
 
 alignas(64) constexpr CompressionTable kCompression;
 
-struct Lanes {
+struct Lanes : TurnedRuns<Lanes> {
     static constexpr int kCount = 8;
     using Float = __m256;
     using Int = __m256i;
@@ -96,16 +96,7 @@ struct Lanes {
                          const std::int32_t* indexB) {
         return eightMeanEnds(a, indexA, b, indexB);
     }
-    static Run run(const std::uint16_t* codes, const std::int32_t* index) {
-        return turnRuns<Lanes>([&](int i) { return runRecord(codes, index[i]); });
-    }
-    static Run meanRun(const std::uint16_t* a, const std::int32_t* indexA, const std::uint16_t* b,
-                       const std::int32_t* indexB) {
-        return turnRuns<Lanes>([&](int i) {
-            return _mm256_avg_epu16(runRecord(a, indexA[i]), runRecord(b, indexB[i]));
-        });
-    }
-    /// For turnRuns().
+    /// For TurnedRuns.
     template<class Record>
     static Int rows(const Record& record, int i) {
         return record(i);

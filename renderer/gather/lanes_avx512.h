@@ -12,7 +12,7 @@
 namespace celadon::gather {
 namespace {
 
-struct Lanes {
+struct Lanes : TurnedRuns<Lanes> {
     static constexpr int kCount = 16;
     using Float = __m512;
     using Int = __m512i;
@@ -73,16 +73,7 @@ struct Lanes {
     struct Run {
         Float code[kRunKnots][3];
     };
-    static Run run(const std::uint16_t* codes, const std::int32_t* index) {
-        return turnRuns<Lanes>([&](int i) { return runRecord(codes, index[i]); });
-    }
-    static Run meanRun(const std::uint16_t* a, const std::int32_t* indexA, const std::uint16_t* b,
-                       const std::int32_t* indexB) {
-        return turnRuns<Lanes>([&](int i) {
-            return _mm256_avg_epu16(runRecord(a, indexA[i]), runRecord(b, indexB[i]));
-        });
-    }
-    /// For turnRuns().
+    /// For TurnedRuns.
     template<class Record>
     static Int rows(const Record& record, int i) {
         return _mm512_inserti64x4(_mm512_castsi256_si512(record(i)), record(i + 4), 1);

@@ -49,5 +49,19 @@ typename L::Run turnRuns(const Record& record) {
     return run;
 }
 
+/// Runs of knots of each lane's record, and means of two records', for lanes L.
+template<class L>
+struct TurnedRuns {
+    static auto run(const std::uint16_t* codes, const std::int32_t* index) {
+        return turnRuns<L>([&](int i) { return runRecord(codes, index[i]); });
+    }
+    static auto meanRun(const std::uint16_t* a, const std::int32_t* indexA, const std::uint16_t* b,
+                        const std::int32_t* indexB) {
+        return turnRuns<L>([&](int i) {
+            return _mm256_avg_epu16(runRecord(a, indexA[i]), runRecord(b, indexB[i]));
+        });
+    }
+};
+
 } // namespace
 } // namespace celadon::gather

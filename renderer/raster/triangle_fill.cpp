@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
 #include <utility>
 
 namespace celadon {
@@ -60,21 +59,9 @@ void TriangleRaster::fill(int index, SampleBand& band) {
     }
 }
 
-void TriangleRaster::prepareBand(SampleBand& band) const {
-    const auto cells =
-        static_cast<std::size_t>(mCells.columns()) * static_cast<std::size_t>(kBandRows);
-    const std::size_t samples = cells * mCells.groups() * SampleCells::kLanes;
-    if (band.triangles.size() != samples) { // else takeRow() left zeros
-        band.triangles.assign(samples, 0u);
-        band.depths.assign(samples, 0.0f);
-        band.centerDepths.resize(mHasPlaces ? samples : 0);
-    }
-    band.touched.assign(kBandRows, {std::numeric_limits<int>::max(), -1});
-}
-
 void TriangleRaster::takeRow(SampleBand& band, int row) {
     const auto r = static_cast<std::size_t>(row - band.rows.first);
-    RasterRange& touched = band.touched[r];
+    const RasterRange touched = band.touched[r];
     const auto lanes = mCells.groups() * SampleCells::kLanes;
     const auto width = static_cast<std::size_t>(mSize.x);
     const bool isEmpty = touched.first > touched.last;
@@ -110,7 +97,6 @@ void TriangleRaster::takeRow(SampleBand& band, int row) {
               band.triangles.data() + from + last * lanes, 0u);
     std::fill(band.depths.data() + from + first * lanes, band.depths.data() + from + last * lanes,
               0.0f);
-    touched = {std::numeric_limits<int>::max(), -1};
 }
 
 } // namespace celadon

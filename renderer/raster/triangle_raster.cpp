@@ -145,6 +145,16 @@ void TriangleRaster::sort(Chunk& chunk) const {
     }
 }
 
+void TriangleRaster::prepareBand(SampleBand& band) const {
+    const auto cells =
+        static_cast<std::size_t>(mCells.columns()) * static_cast<std::size_t>(kBandRows);
+    const std::size_t samples = cells * mCells.groups() * SampleCells::kLanes;
+    growTo(samples, band.triangles); // with zeros, as takeRow() leaves them
+    growTo(samples, band.depths);
+    growTo(mHasPlaces ? samples : 0, band.centerDepths);
+    band.touched.assign(kBandRows, {std::numeric_limits<int>::max(), -1});
+}
+
 std::vector<glm::ivec4> TriangleRaster::boundsOfMeshes() const {
     struct Extent {
         glm::ivec2 low{std::numeric_limits<int>::max()}, high{-1};

@@ -81,8 +81,8 @@ private:
     void sortInto(Chunk& chunk, const std::array<ScreenVertex, 3>& corners,
                   std::uint32_t entry) const;
     void clip(Chunk& chunk, std::uint32_t triangle) const;
-    void prepareBand(SampleBand& band) const; ///< this and the following: triangle_fill.cpp
-    void fill(int index, SampleBand& band);
+    void prepareBand(SampleBand& band) const;
+    void fill(int index, SampleBand& band); ///< this and the following: triangle_fill.cpp
     void fillTriangle(SampleBand& band, const std::array<ScreenVertex, 3>& corners,
                       const Chunk& chunk, std::uint32_t triangle) const;
     void takeRow(SampleBand& band, int row);

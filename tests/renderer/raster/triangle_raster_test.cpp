@@ -202,6 +202,32 @@ TEST(TriangleRasterTest, PlacesAreSamplesAndCenterDepthsThePlanes) {
     EXPECT_GT(alike, 500);
 }
 
+// As those of a light and of a camera do, whose bands of rows hold as many samples here.
+TEST(TriangleRasterTest, PicturesOfSeveralSizesTakeTurns) {
+    const Waves waves(12);
+    const std::array places{glm::vec2(-0.125f, -0.375f), glm::vec2(0.375f, -0.125f)};
+    RasterView light;
+    light.size = {400, 40};
+    light.toClip = perspective(1.5f);
+    RasterView camera;
+    camera.size = {50, 40};
+    camera.toClip = perspective(1.5f);
+    camera.places = places;
+    TriangleRaster shared;
+    for (const RasterView& view : {light, camera, light, camera}) {
+        TriangleRaster own;
+        own.draw(std::array{waves.mesh()}, view);
+        shared.draw(std::array{waves.mesh()}, view);
+        EXPECT_TRUE(std::ranges::equal(shared.triangles(), own.triangles()));
+        EXPECT_TRUE(std::ranges::equal(shared.depths(), own.depths()));
+        for (std::size_t i = 0; i < own.centerDepths().size(); ++i) {
+            if (own.triangles()[i] > 0) {
+                ASSERT_EQ(shared.centerDepths()[i], own.centerDepths()[i]);
+            }
+        }
+    }
+}
+
 TEST(TriangleRasterTest, NearPlaneAndDepthClamp) {
     // A sheet that passes by the eye: with depth clamp what is before the near plane is seen, too.
     const std::array positions{glm::vec3(-1, -0.2, 1), glm::vec3(1, -0.2, 1),
