@@ -1,8 +1,10 @@
 // Irradiance buffer, level 0 (Chen et al. 2012, section 4, "buffer generation"; DESIGN 3.1).
 // Flux is what the geometry intercepts: F_t H a, a the cross-section of the texel towards the light,
 // since Delta A = a / (n . l) and E = F_t H (n . l): the cosines cancel and grazing texels are safe.
-// The texel is a patch: its positions have the covariance C = s/2 (I - n n^T).
-//   PATCH_VARIANCE  s over that of a texel lit evenly, as SplattingSettings has it
+// The texel is a patch: its positions have the covariance C = s (I - n n^T), s the variance of a / cos^2,
+// a square as wide as the texel is long up the slope. A disc of the texel's own area would not reach its
+// neighbors there, and where light ends rings would show; of the trace that a strip has, it misses half.
+//   PATCH_VARIANCE  s over that, as SplattingSettings has it
 #include "include/light.glsl"
 #include "include/fresnel.glsl"
 #include "include/material.glsl"
@@ -44,9 +46,9 @@ void main() {
     }
     lit = lit && flux.r + flux.g + flux.b > 0.0;
 
-    float stretched = 1.0 / max(0.1, cosine);
-    float variance = PATCH_VARIANCE * crossSection / 12.0 * (1.0 + stretched * stretched);
-    mat3 C = 0.5 * variance * (mat3(1.0) - outerProduct(n, n));
+    float stretch = 1.0 / max(0.1, cosine);
+    float variance = PATCH_VARIANCE * crossSection / 12.0 * stretch * stretch;
+    mat3 C = variance * (mat3(1.0) - outerProduct(n, n));
 
     outPosition = vec4(surface.position, depth);
     outNormal = vec4(n, cosine);

@@ -32,7 +32,7 @@ Patch makeTexelPatch(glm::vec3 positionMm, glm::vec3 normal, glm::vec3 flux, flo
     // Beyond the clamp a texel is seen edge on: how far it really reaches is unknown.
     constexpr float kLeastCosine = 0.1f;
     const float c = std::max(kLeastCosine, cosine);
-    const float variance = crossSectionMm2 / 12.0f * (1.0f + 1.0f / (c * c));
+    const float variance = crossSectionMm2 / (6.0f * c * c);
     return makePatch(positionMm, normal, flux, variance, uv, material);
 }
 

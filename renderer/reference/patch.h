@@ -40,8 +40,9 @@ struct ExitPoint {
 [[nodiscard]] Patch makePatch(glm::vec3 positionMm, glm::vec3 normal, glm::vec3 flux,
                               float varianceMm2, glm::vec2 uv, int material);
 
-/// The patch that a texel of a light view sees. Its variance is a / 12 (1 + 1 / max(0.1,
-/// cosine)^2): that of a square stretched along the slope by 1 / cosine.
+/// The patch that a texel of a light view sees. Its variance is a / 6 / max(0.1, cosine)^2: that of
+/// a square as wide as the texel is long up the slope, so that it reaches its neighbors there
+/// (shaders/irradiance_buffer.frag).
 /// @param crossSectionMm2  a, the texel's area on a plane that faces the light
 /// @param cosine           of the angle between the surface's normal and the light
 [[nodiscard]] Patch makeTexelPatch(glm::vec3 positionMm, glm::vec3 normal, glm::vec3 flux,

@@ -108,6 +108,24 @@ TEST_F(Silhouettes, FarLightFallsOffAlongWhatCurvesAway) {
     EXPECT_NEAR(errors.meanRatio, 1.0, 0.016);
 }
 
+TEST_F(Silhouettes, LightEndsWithoutRings) {
+    // Where light grazes, texels lie far apart up the slope: patches that do not reach their
+    // neighbors leave rings, which the integral over the surface does not have.
+    const World world = test::makeWorld("builtin:sphere", test::shortRangeMaterial());
+    Camera camera = test::defaultCamera(world, kPicture);
+    camera.eye = {0.0, 250.0, 0.01};
+    const std::array lights{test::directionalLight({0.0, -0.2, 1.0})};
+    FrameSettings settings = test::smallFrame(kPicture, 512, Scheme::Hierarchical);
+    const FloatImage image = test::renderFrame(context(), world, settings, camera, lights).image;
+    settings.solver = SolverKind::SurfaceReference;
+    const FloatImage reference =
+        test::renderFrame(context(), world, settings, camera, lights).image;
+    const ValueErrors errors = test::compareExitance(image, reference);
+    fmt::print("[ measured ] where light ends on a sphere: relative RMSE {:.5f}, max {:.5f}\n",
+               errors.relativeRmse, errors.max);
+    EXPECT_LT(errors.relativeRmse, 0.006); // discs of the strip's own area: 0.0081
+}
+
 constexpr AccuracyCase kCases[] = {
     {"SphereShort", "builtin:sphere", "short", test::kSplattingShortRmse},
     {"SphereMedium", "builtin:sphere", "medium"},
