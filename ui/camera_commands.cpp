@@ -22,11 +22,13 @@ void addCameraCommands(Session& session) {
         "camera.turntable",
         "Turns camera and lights together about the target, so that the object turns: degrees",
         [&session, change](const Arguments& a) {
-            Camera camera = session.camera;
-            LightRig rig = session.rig;
-            turnAround(camera, rig, a.number("degrees"));
-            session.rig = std::move(rig);
-            change(camera);
+            const Camera before = session.camera;
+            const double degrees = a.number("degrees");
+            Camera turned = before;
+            LightRig none;
+            turnAround(turned, none, degrees);
+            change(turned);
+            session.turnLights(before, degrees);
         });
     commands.add("camera.pan", "Shifts the view: right and up in mm",
                  [&session, change](const Arguments& a) {

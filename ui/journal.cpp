@@ -49,8 +49,9 @@ bool belongsToLiving(const std::filesystem::path& file) {
 } // namespace
 
 bool changesWork(const Command& command) {
-    return command.name == "paint.edit" || command.name == "edit.undo" ||
-           command.name == "edit.redo" || command.name == "material.activate" ||
+    const bool undoes = command.name == "edit.undo" || command.name == "edit.redo";
+    return command.name == "paint.edit" || command.name == "material.activate" ||
+           (undoes && !command.arguments.value("setting", false)) ||
            command.name == "motion.animation" ||
            (command.name.starts_with("deform.") && command.name != "deform.save");
 }

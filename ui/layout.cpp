@@ -13,6 +13,7 @@
 #include "ui/panels/status_bar.h"
 #include "ui/panels/view_panel.h"
 #include "ui/theme.h"
+#include "ui/widgets/held_change.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -72,6 +73,7 @@ void drawTabs(LayoutState& state) {
 }
 
 void drawPanel(const LayoutContext& context) {
+    letGoOfHeld(context.session);
     switch (context.state.tab) {
     case Tab::View:
         drawViewPanel(context);

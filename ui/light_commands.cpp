@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include <utility>
+
 namespace celadon::ui {
 
 namespace {
@@ -71,23 +73,29 @@ void changeLight(RigLight& item, const Arguments& a) {
 
 void addLightCommands(Session& session) {
     Dispatcher& commands = session.dispatcher();
-    const auto add = [&](const char* name, const char* summary, Dispatcher::Handler handler) {
-        commands.add(name, summary, [&session, handler = std::move(handler)](const Arguments& a) {
-            handler(a);
-            session.touchPicture();
-        });
+    // Each is a step that can be undone.
+    const auto add = [&](const char* name, const char* summary, const char* title,
+                         Dispatcher::Handler handler) {
+        commands.add(name, summary,
+                     [&session, title, handler = std::move(handler)](const Arguments& a) {
+                         LightRig before = session.rig;
+                         handler(a);
+                         session.changeLights(std::exchange(session.rig, std::move(before)), title,
+                                              a.flag("continues", false));
+                     });
     };
-    add("light.preset", "Replaces the lights: back, rim, studio, front",
+    add("light.preset", "Replaces the lights: back, rim, studio, front", "light preset",
         [&session](const Arguments& a) {
             session.rig.lights = lightPreset(a.text("name"), session.camera, object(session));
             session.selectedLight = 0;
         });
-    add("light.add", "Adds a light: directional, point, spot", [&session](const Arguments& a) {
-        session.rig.lights.push_back(
-            newLight(parseLightKind(a.text("kind")), session.camera, object(session)));
-        session.selectedLight = static_cast<int>(session.rig.lights.size()) - 1;
-    });
-    add("light.remove", "Removes a light", [&session](const Arguments& a) {
+    add("light.add", "Adds a light: directional, point, spot", "add light",
+        [&session](const Arguments& a) {
+            session.rig.lights.push_back(
+                newLight(parseLightKind(a.text("kind")), session.camera, object(session)));
+            session.selectedLight = static_cast<int>(session.rig.lights.size()) - 1;
+        });
+    add("light.remove", "Removes a light", "remove light", [&session](const Arguments& a) {
         static_cast<void>(lightAt(session, a));
         const int index = a.integerWithin("light", 0, 1 << 20);
         session.rig.lights.erase(session.rig.lights.begin() + index);
@@ -95,9 +103,9 @@ void addLightCommands(Session& session) {
             std::max(0, std::min(session.selectedLight, int(session.rig.lights.size()) - 1));
     });
     add("light.change", "Changes color, direction, position, cones (degrees), name or on",
-        [&session](const Arguments& a) { changeLight(lightAt(session, a), a); });
+        "change light", [&session](const Arguments& a) { changeLight(lightAt(session, a), a); });
     add("light.move", "Drags a light to a point in mm; it goes on aiming at the object",
-        [&session](const Arguments& a) {
+        "move light", [&session](const Arguments& a) {
             RigLight& item = lightAt(session, a);
             item.followed.reset();
             item.light = movedTo(item.light, a.vector3("position"), object(session));
@@ -109,7 +117,7 @@ void addLightCommands(Session& session) {
             session.selectedLight = a.integerWithin("light", 0, 1 << 20);
         },
         false);
-    add("environment.open", "Light from all around: a .hdr or .exr",
+    add("environment.open", "Light from all around: a .hdr or .exr", "open environment",
         [&session](const Arguments& a) {
             const std::filesystem::path file = a.text("file");
             auto map = std::make_shared<EnvironmentMap>(readEnvironment(file));
@@ -121,7 +129,7 @@ void addLightCommands(Session& session) {
             environment.map = std::move(map);
             session.rig.environment = environment;
         });
-    add("environment.change", "Strength, turn in degrees, number of lights",
+    add("environment.change", "Strength, turn in degrees, number of lights", "change environment",
         [&session](const Arguments& a) {
             RigEnvironment changed = environmentOf(session);
             if (a.has("strength")) {
@@ -135,7 +143,7 @@ void addLightCommands(Session& session) {
             }
             session.rig.environment = changed;
         });
-    add("environment.close", "No light from the environment",
+    add("environment.close", "No light from the environment", "remove environment",
         [&session](const Arguments&) { session.rig.environment.reset(); });
 }
 

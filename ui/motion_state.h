@@ -25,7 +25,6 @@ struct MotionState {
     int control = -1;             ///< its control point (Lattice::index) or handle; -1: none
     bool isAddingHandles = false; ///< clicks on the surface add handles
     bool areControlsShown = true; ///< control points and handles are seen and can be dragged
-    bool isHeld = false; ///< a slider is in the hand: its changes are one step to be undone
 };
 
 } // namespace celadon::ui

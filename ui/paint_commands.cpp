@@ -78,6 +78,15 @@ subedit::SelectionStep selectionStep(const Arguments& a) {
                      "choose all, none, invert, grow, shrink or feather");
 }
 
+/// As it was carried out: what took back a setting says so.
+Command undoCommand(const char* name, Session::Undone undone) {
+    Command command{name, nlohmann::json::object()};
+    if (undone == Session::Undone::Setting) {
+        command.arguments["setting"] = true;
+    }
+    return command;
+}
+
 } // namespace
 
 subedit::EditProgress Session::progressOf(const std::string& title) const {
@@ -208,21 +217,21 @@ void addPaintCommands(Session& session) {
                      session.touchMaterial();
                  });
     // Both may take long, so they are recorded when they are done.
-    commands.addLong("edit.undo", "Takes back the last change of the material or of the deformers",
-                     [&session](const Arguments&) {
-                         refuseDuringStroke(session);
-                         if (session.undoMotion() || session.undoEdit()) {
-                             session.dispatcher().announce({"edit.undo", {}});
-                         } else if (session.isAnyForgotten()) {
-                             throw UsageError("undo",
-                                              "older steps are forgotten: the preferences say how "
-                                              "much memory undoing may take");
-                         }
-                     });
+    commands.addLong(
+        "edit.undo", "Takes back the last change: of a material, deformers, lights or a profile",
+        [&session](const Arguments&) {
+            refuseDuringStroke(session);
+            if (const auto undone = session.undo(); undone != Session::Undone::Nothing) {
+                session.dispatcher().announce(undoCommand("edit.undo", undone));
+            } else if (session.isAnyForgotten()) {
+                throw UsageError("undo", "older steps are forgotten: the preferences say how "
+                                         "much memory undoing may take");
+            }
+        });
     commands.addLong("edit.redo", "Repeats what was taken back", [&session](const Arguments&) {
         refuseDuringStroke(session);
-        if (session.redoMotion() || session.redoEdit()) {
-            session.dispatcher().announce({"edit.redo", {}});
+        if (const auto redone = session.redo(); redone != Session::Undone::Nothing) {
+            session.dispatcher().announce(undoCommand("edit.redo", redone));
         }
     });
     commands.add("material.activate", "Chooses which material is worked on",

@@ -19,12 +19,21 @@ namespace celadon::ui {
 
 namespace {
 
-NamedProfile& profileOf(Session& session, const Arguments& a) {
+bool isSecondary(const Arguments& a) {
     const std::string which = a.text("which", "primary");
     if (which != "primary" && which != "secondary") {
         throw UsageError("profile", fmt::format("'{}' is neither primary nor secondary", which));
     }
-    return which == "primary" ? session.paint.primary : session.paint.secondary;
+    return which == "secondary";
+}
+
+NamedProfile& profileOf(Session& session, const Arguments& a) {
+    return isSecondary(a) ? session.paint.secondary : session.paint.primary;
+}
+
+/// A step that can be undone.
+void change(Session& session, const Arguments& a, NamedProfile next, const char* title) {
+    session.changeProfile(isSecondary(a), std::move(next), title, a.flag("continues", false));
 }
 
 subedit::ProfileLayout layoutOf(const subedit::StoredProfile& profile) {
@@ -92,9 +101,7 @@ void moveKnot(subedit::StoredProfile& profile, const Arguments& a) {
 void addProfileCommands(Session& session) {
     Dispatcher& commands = session.dispatcher();
     commands.add("profile.swap", "Primary becomes secondary and the other way round",
-                 [&session](const Arguments&) {
-                     std::swap(session.paint.primary, session.paint.secondary);
-                 });
+                 [&session](const Arguments&) { session.swapProfiles(); });
     commands.add("profile.pick", "Takes the profile at a place of the map: uv",
                  [&session](const Arguments& a) {
                      const subedit::Document* const document = session.document(
@@ -111,37 +118,43 @@ void addProfileCommands(Session& session) {
                      const std::string name = a.text("name");
                      const subedit::MaterialMap map =
                          subedit::readMaterial(subedit::findMaterial(name));
-                     profileOf(session, a) = {map.name.empty() ? name : map.name,
-                                              storedProfile(map, map.width / 2, map.height / 2)};
+                     change(session, a,
+                            {map.name.empty() ? name : map.name,
+                             storedProfile(map, map.width / 2, map.height / 2)},
+                            "profile of a material");
                  });
-    commands.add("profile.diffusion", "Normalized diffusion with an albedo and radii R_P in mm",
-                 [&session](const Arguments& a) {
-                     profileOf(session, a) = {
-                         a.text("name", "Custom"),
-                         diffusionProfile(glm::clamp(glm::vec3(a.vector3("albedo")), 0.0f, 0.999f),
-                                          glm::clamp(glm::vec3(a.vector3("radius")), 1e-3f, 1e3f))};
-                 });
+    commands.add(
+        "profile.diffusion", "Normalized diffusion with an albedo and radii R_P in mm",
+        [&session](const Arguments& a) {
+            change(session, a,
+                   {a.text("name", "Custom"),
+                    diffusionProfile(glm::clamp(glm::vec3(a.vector3("albedo")), 0.0f, 0.999f),
+                                     glm::clamp(glm::vec3(a.vector3("radius")), 1e-3f, 1e3f))},
+                   "profile by diffusion");
+        });
     commands.add("profile.model", "A published model's profile: model, albedo, radii R_P in mm",
                  [&session](const Arguments& a) {
                      const subedit::Document* const document = session.activeDocument();
                      const double eta =
                          document != nullptr ? static_cast<double>(document->material().eta) : 1.3;
-                     profileOf(session, a) = {
-                         a.text("name", "Custom"),
-                         modelProfile(a.text("model"), glm::clamp(a.vector3("albedo"), 0.0, 0.999),
-                                      glm::clamp(a.vector3("radius"), 1e-3, 1e3), eta)};
+                     change(
+                         session, a,
+                         {a.text("name", "Custom"),
+                          modelProfile(a.text("model"), glm::clamp(a.vector3("albedo"), 0.0, 0.999),
+                                       glm::clamp(a.vector3("radius"), 1e-3, 1e3), eta)},
+                         "profile by a model");
                  });
     commands.add("profile.change", "Changes albedo or radii R_P (mm) per channel",
                  [&session](const Arguments& a) {
                      NamedProfile changed = profileOf(session, a);
                      changeProfile(changed.profile, a);
-                     profileOf(session, a) = std::move(changed);
+                     change(session, a, std::move(changed), "change profile");
                  });
     commands.add("profile.knot", "Moves one knot of a channel: log is ln P, P in 1/mm^2",
                  [&session](const Arguments& a) {
                      NamedProfile changed = profileOf(session, a);
                      moveKnot(changed.profile, a);
-                     profileOf(session, a) = std::move(changed);
+                     change(session, a, std::move(changed), "move knot");
                  });
 }
 

@@ -7,10 +7,10 @@
 #include "subedit/errors.h"
 #include "ui/command.h"
 #include "ui/light_rig.h"
-#include "ui/motion_history.h"
 #include "ui/motion_state.h"
 #include "ui/opened_scene.h"
 #include "ui/paint_state.h"
+#include "ui/setting_history.h"
 
 #include <chrono>
 #include <cstdint>
@@ -135,10 +135,6 @@ public:
     void touchMaterial();
     /// After an edit of one: nothing that was undone in another can be redone after it.
     void dropUndone(int material);
-    /// Takes back the latest edit of all materials, and activates its material; repeats the first
-    /// that was taken back. @return whether there was any
-    bool undoEdit();
-    bool redoEdit();
     /// There are edits that can no longer be undone.
     [[nodiscard]] bool isAnyForgotten() const { return latestEdited() < 0 && editCount() > 0; }
 
@@ -157,18 +153,9 @@ public:
     }
     /// Nothing takes a file's name unless asked to.
     void forgetMaterialFiles();
-    /// What edit.undo and edit.redo would do; nothing: there is nothing.
-    [[nodiscard]] std::optional<std::string> undoTitle() const;
-    [[nodiscard]] std::optional<std::string> redoTitle() const;
-
     // Motion (session_motion.cpp).
     /// Shows the model so from now on. @throws celadon::Error where it cannot be; nothing changes
     void setMotion(MotionSetting next);
-    /// The same as a step that can be undone. @param continues see MotionHistory::add
-    void changeMotion(MotionSetting next, const std::string& title, bool continues = false);
-    /// @return whether there was one, that nothing was painted after
-    bool undoMotion();
-    bool redoMotion();
     /// Which deformer, and which of its controls, the panel and the viewport show; -1: none.
     void chooseDeformer(int index, int control = -1);
     /// While it plays: time goes on, and starts over after the end where it loops.
@@ -181,8 +168,29 @@ public:
     }
     void markDeformersSaved() { mSavedDeformers = motion.now.deformers; }
 
+    // What can be undone (session_settings.cpp).
+    /// Steps that set what is not painted. @param continues see SettingHistory::add
+    void changeMotion(MotionSetting next, const std::string& title, bool continues = false);
+    void changeLights(LightRig next, const std::string& title, bool continues = false);
+    void changeProfile(bool isSecondary, NamedProfile next, const std::string& title,
+                       bool continues = false);
+    /// No steps: they go on in what is undone.
+    void swapProfiles();
+    void turnLights(const Camera& about, double degrees);
+    /// What undo() and redo() would do; nothing: there is nothing.
+    [[nodiscard]] std::optional<std::string> undoTitle() const;
+    [[nodiscard]] std::optional<std::string> redoTitle() const;
+    /// Of what was undone: what a session must not lose, materials and motion, or how they are
+    /// looked at and painted on.
+    enum class Undone { Nothing, Work, Setting };
+    /// Takes back the latest step, of all materials and settings; repeats the first that was taken
+    /// back. An edit's material becomes the active one.
+    Undone undo();
+    Undone redo();
+
     // State that commands change and widgets read.
-    MotionState motion; ///< `now` is set by setMotion() and advanceTime() alone
+    bool isHeld = false; ///< a slider is in the hand: its changes are one step to be undone
+    MotionState motion;  ///< `now` is set by setMotion() and advanceTime() alone
     Camera camera;
     std::optional<Camera> fileCamera; ///< the view that the scene opens with
     LightRig rig;
@@ -214,6 +222,12 @@ private:
     void followAnimation();
     /// What was chosen stays so where the list has it still.
     void keepChoice(const DeformerStack& before);
+    /// @return the same part as it was
+    SettingPart set(const SettingPart& part);
+    /// The latest edit of all materials, or the first that was taken back. @return whether there
+    /// was any
+    bool undoEdit();
+    bool redoEdit();
     /// What it throws becomes a notice. @return whether it threw nothing
     bool attempt(const std::function<void()>& action);
     /// The stroke in hand.
@@ -237,7 +251,7 @@ private:
     std::shared_ptr<const World> mWorld;
     std::unique_ptr<Motion> mMover;        ///< of mWorld
     std::optional<Camera> mFollowedCamera; ///< the model's first, as it was last
-    MotionHistory mMotionHistory;
+    SettingHistory mSettingHistory;
     DeformerStack mSavedDeformers;
     OpenRequest mOpened;
     std::vector<std::shared_ptr<subedit::MaterialMap>> mRendered;

@@ -1,4 +1,4 @@
-// What moves the model, and how it is undone.
+// What moves the model.
 #include "renderer/scene/handle_ground.h"
 #include "renderer/scene/motion.h"
 #include "subedit/document/edit_progress.h"
@@ -22,7 +22,7 @@ bool areAtOnePlace(const Camera& a, const Camera& b) {
 void Session::adoptMotion(bool isSameModel) {
     mMover = std::make_unique<Motion>(*mWorld);
     mFollowedCamera.reset();
-    mMotionHistory.clear();
+    mSettingHistory.clear();
     const MotionState before = std::exchange(motion, {});
     motion.now.deformers = mMover->deformers();
     motion.speed = before.speed;
@@ -73,12 +73,6 @@ void Session::setMotion(MotionSetting next) {
     }
 }
 
-void Session::changeMotion(MotionSetting next, const std::string& title, bool continues) {
-    const MotionSetting before = motion.now;
-    setMotion(std::move(next));
-    mMotionHistory.add(before, title, editCount(), continues);
-}
-
 bool Session::advanceTime(double clockSeconds) {
     const double duration = hasWorld() ? mMover->durationSeconds() : 0.0;
     if (duration <= 0.0) {
@@ -117,46 +111,6 @@ void Session::followAnimation() {
         }
     }
     mFollowedCamera = now.cameras.front();
-}
-
-std::optional<std::string> Session::undoTitle() const {
-    if (const std::string* const title = mMotionHistory.undoTitle(editCount())) {
-        return *title;
-    }
-    const int material = latestEdited();
-    return material >= 0 ? std::optional(editTitle(*document(material)->undoCommand()))
-                         : std::nullopt;
-}
-
-std::optional<std::string> Session::redoTitle() const {
-    if (const std::string* const title = mMotionHistory.redoTitle(editCount())) {
-        return *title;
-    }
-    const int material = nextRedone();
-    return material >= 0 ? std::optional(editTitle(*document(material)->redoCommand()))
-                         : std::nullopt;
-}
-
-bool Session::undoMotion() {
-    if (mMotionHistory.undoTitle(editCount()) == nullptr) {
-        return false;
-    }
-    const MotionSetting before = motion.now;
-    setMotion(mMotionHistory.undone(before));
-    mMotionHistory.confirmUndo(before);
-    keepChoice(before.deformers);
-    return true;
-}
-
-bool Session::redoMotion() {
-    if (mMotionHistory.redoTitle(editCount()) == nullptr) {
-        return false;
-    }
-    const MotionSetting before = motion.now;
-    setMotion(mMotionHistory.redone(before));
-    mMotionHistory.confirmRedo(before);
-    keepChoice(before.deformers);
-    return true;
 }
 
 void Session::keepChoice(const DeformerStack& before) {

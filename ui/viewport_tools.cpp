@@ -61,8 +61,8 @@ void ViewportTools::dragControlBy(glm::dvec2 deltaPx, const ViewportRect& rect) 
             const CameraFrame frame = cameraFrame(mSession.camera);
             Command drag = dragControl(mSession, mControl,
                                        deltaPx.x * mm * frame.right - deltaPx.y * mm * frame.up);
-            drag.arguments["continues"] = mHasMovedControl;
-            mHasMovedControl |= mSession.perform(drag);
+            drag.arguments["continues"] = mHasMoved;
+            mHasMoved |= mSession.perform(drag);
             return;
         }
     }
@@ -154,7 +154,7 @@ void ViewportTools::press(const InputEvent& event, const ViewportRect& rect) {
         mControl = controlAt(event.positionPx, rect);
         if (mControl >= 0) {
             mDrag = Drag::Control;
-            mHasMovedControl = false;
+            mHasMoved = false;
             mSession.chooseDeformer(mSession.motion.selected, mControl);
             return;
         }
@@ -162,6 +162,7 @@ void ViewportTools::press(const InputEvent& event, const ViewportRect& rect) {
         // A light before the object is in the way of the brush, unless lights are what is at hand.
         if (mLight >= 0 && (mLightsFirst || !mPicker.pickAtRest(event.positionPx, rect))) {
             mDrag = Drag::Light;
+            mHasMoved = false;
             mSession.perform({"light.select", {{"light", mLight}}});
             return;
         }
@@ -207,10 +208,11 @@ void ViewportTools::move(const InputEvent& event, const ViewportRect& rect) {
             gizmoPosition(mSession.rig.lights[index].light, mSession.world().scatteringSphere);
         const double mm = pictureHeightMm(mSession.camera, at) / height;
         const CameraFrame frame = cameraFrame(mSession.camera);
-        mSession.perform(
+        mHasMoved |= mSession.perform(
             {"light.move",
              {{"light", mLight},
-              {"position", toJson(at + delta.x * mm * frame.right - delta.y * mm * frame.up)}}});
+              {"position", toJson(at + delta.x * mm * frame.right - delta.y * mm * frame.up)},
+              {"continues", mHasMoved}}});
         break;
     }
     case Drag::Control:
@@ -423,8 +425,8 @@ void ViewportTools::cancel() {
         mSession.cancelStroke();
         mDrag = Drag::None;
     }
-    if (mDrag == Drag::Control) {
-        if (mHasMovedControl) {
+    if (mDrag == Drag::Control || mDrag == Drag::Light) {
+        if (mHasMoved) {
             mSession.perform({"edit.undo"});
         }
         mDrag = Drag::None;
@@ -490,7 +492,7 @@ std::string ViewportTools::hint() const {
     case Drag::Zoom:
         return "Zooming";
     case Drag::Light:
-        return "Moving a light: it goes on aiming at the object";
+        return "Moving a light: it goes on aiming at the object   \xc2\xb7   Esc to give up";
     case Drag::Control:
         return "Moving a part of the shape, as far from the eye as it is   \xc2\xb7   Esc to give "
                "up";

@@ -90,9 +90,9 @@ private:
     int mButton = -1;
     int mLight = -1;
     bool mLightsFirst = false;
-    double mScale = 1.0; ///< of the interface: gizmos are caught as far off as they are seen
-    int mControl = -1;   ///< of the chosen deformer, that is dragged
-    bool mHasMovedControl = false; ///< by this drag
+    double mScale = 1.0;    ///< of the interface: gizmos are caught as far off as they are seen
+    int mControl = -1;      ///< of the chosen deformer, that is dragged
+    bool mHasMoved = false; ///< a control or a light, by this drag
     glm::dvec2 mLast{0.0};
     glm::dvec3 mPivot{0.0};
     glm::dvec2 mCursor{-1.0};

@@ -30,6 +30,8 @@ TEST(Journal, IsFoundAfterACrashAndHoldsWhatChangesMaterials) {
         EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
         EXPECT_FALSE(journal.add(kEdit));
         EXPECT_FALSE(journal.add({"edit.undo"}));
+        EXPECT_FALSE(journal.add({"light.change", {{"light", 0}}}));
+        EXPECT_FALSE(journal.add({"edit.undo", {{"setting", true}}})); // of the light
     } // as a crash: finish() was not called
     EXPECT_FALSE(findRecovery(folder.path())) << "of a process that lives";
     abandon(folder.path());

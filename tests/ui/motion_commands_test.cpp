@@ -129,11 +129,11 @@ TEST_F(MotionCommands, UndoTakesStepsBackAndRedoRepeatsThem) {
     EXPECT_TRUE(session.areDeformersModified());
 }
 
-TEST(MotionHistory, StandsInOneRowWithWhatWasPainted) {
-    MotionHistory history;
-    MotionSetting now;
+TEST(SettingHistory, StandsInOneRowWithWhatWasPainted) {
+    SettingHistory history;
+    MotionPart now;
     const auto change = [&](double amount, std::size_t edits) {
-        const MotionSetting before = now;
+        const MotionPart before = now;
         now.deformers.assign(1, AnimatedDeformer());
         now.deformers.front().amount = KeyedNumbers::of(amount);
         history.add(before, "twist", edits, false);
@@ -142,15 +142,15 @@ TEST(MotionHistory, StandsInOneRowWithWhatWasPainted) {
     change(2.0, 3);                           // after three strokes
     EXPECT_EQ(history.undoTitle(4), nullptr); // painted since: the stroke comes first
     ASSERT_NE(history.undoTitle(3), nullptr);
-    const MotionSetting before = now;
-    now = history.undone(before);
+    const MotionPart before = now;
+    now = std::get<MotionPart>(history.undone());
     history.confirmUndo(before);
     EXPECT_EQ(now.deformers.front().amount.number(0.0), 1.0);
     EXPECT_EQ(history.undoTitle(3), nullptr); // the strokes come first
     EXPECT_NE(history.undoTitle(0), nullptr);
     EXPECT_EQ(history.redoTitle(2), nullptr);
     EXPECT_NE(history.redoTitle(3), nullptr);
-    EXPECT_EQ(history.redone(now).deformers, before.deformers);
+    EXPECT_EQ(std::get<MotionPart>(history.redone()).deformers, before.deformers);
 }
 
 TEST_F(MotionCommands, TimeGoesOnLoopsAndStops) {

@@ -622,6 +622,88 @@ TEST_F(SessionTest, TurntableTurnsLightsWithTheCamera) {
     EXPECT_LT(glm::distance(eye, session.camera.eye), 1e-9);
 }
 
+TEST_F(SessionTest, LightsProfilesAndStrokesAreUndoneInOneRow) {
+    const auto red = [this] { return session.rig.lights.front().light.color.x; };
+    const auto knot = [this] { return session.paint.primary.profile.logProfile[3 * 4]; };
+    const auto paint = [&](const char* which, float value, bool continues) {
+        session.execute({"profile.knot",
+                         {{"which", which},
+                          {"channel", 0},
+                          {"knot", 4},
+                          {"log", value},
+                          {"continues", continues}}});
+    };
+    const std::vector<float> plain = map().logProfile;
+    const double redBefore = red();
+    const float knotBefore = knot();
+    const auto light = [&](double strength, bool continues) {
+        session.execute(
+            {"light.change",
+             {{"light", 0}, {"color", {strength, 1.0, 1.0}}, {"continues", continues}}});
+    };
+    light(7.0, false);
+    light(8.0, true); // the slider goes on: one step
+    paintStroke();
+    const std::vector<float> painted = map().logProfile;
+    paint("primary", knotBefore - 1.0f, false);
+    EXPECT_EQ(session.undoTitle(), "move knot");
+    session.execute({"edit.undo"});
+    EXPECT_EQ(knot(), knotBefore);
+    EXPECT_EQ(map().logProfile, painted);
+    session.execute({"edit.undo"});
+    EXPECT_EQ(map().logProfile, plain);
+    EXPECT_EQ(red(), 8.0);
+    EXPECT_EQ(session.undoTitle(), "change light");
+    session.execute({"edit.undo"});
+    EXPECT_EQ(red(), redBefore);
+    EXPECT_FALSE(session.undoTitle());
+    for (int i = 0; i < 3; ++i) {
+        session.execute({"edit.redo"});
+    }
+    EXPECT_FALSE(session.redoTitle());
+    EXPECT_EQ(red(), 8.0);
+    EXPECT_EQ(map().logProfile, painted);
+    EXPECT_EQ(knot(), knotBefore - 1.0f);
+    // What took back a setting is told from what took back work.
+    std::vector<bool> settings;
+    for (const Command& command : recorded) {
+        if (command.name == "edit.undo") {
+            settings.push_back(command.arguments.value("setting", false));
+        }
+    }
+    EXPECT_EQ(settings, (std::vector<bool>{true, false, true}));
+}
+
+TEST_F(SessionTest, UndoFollowsProfilesAndLightsThatWentOn) {
+    const auto knot = [](const NamedProfile& profile) { return profile.profile.logProfile[3 * 4]; };
+    const float before = knot(session.paint.primary);
+    const float other = knot(session.paint.secondary);
+    session.execute({"profile.knot",
+                     {{"which", "primary"}, {"channel", 0}, {"knot", 4}, {"log", before - 1.0f}}});
+    session.execute({"profile.swap"}); // no step itself
+    session.execute({"edit.undo"});
+    EXPECT_EQ(knot(session.paint.secondary), before);
+    EXPECT_EQ(knot(session.paint.primary), other);
+
+    session.execute({"light.preset", {{"name", "studio"}}});
+    const auto seen = [this] { // the light's direction as the camera has it
+        const CameraFrame frame = cameraFrame(session.camera);
+        const glm::dvec3 d = session.rig.lights.front().light.direction;
+        return glm::dvec3(glm::dot(d, frame.right), glm::dot(d, frame.up),
+                          glm::dot(d, frame.forward));
+    };
+    const glm::dvec3 lit = seen();
+    session.execute({"light.remove", {{"light", 0}}});
+    session.selectedLight = 1;
+    session.execute({"camera.turntable", {{"degrees", 77.0}}});
+    session.execute({"edit.undo"});
+    EXPECT_LT(glm::distance(lit, seen()), 1e-9);
+    session.execute({"edit.undo"}); // the preset: one light again
+    EXPECT_LT(session.selectedLight, static_cast<int>(session.rig.lights.size()));
+    session.execute({"light.remove", {{"light", 0}}});
+    EXPECT_FALSE(session.redoTitle()); // what was taken back is gone
+}
+
 TEST_F(SessionTest, EveryCommandHasASummary) {
     for (const auto& [name, entry] : session.dispatcher().entries()) {
         EXPECT_FALSE(entry.summary.empty()) << name;

@@ -3,6 +3,7 @@
 #include "ui/material_library.h"
 #include "ui/theme.h"
 #include "ui/widgets/fields.h"
+#include "ui/widgets/held_change.h"
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -19,12 +20,9 @@ using Kind = Deformer::Kind;
 constexpr std::array<const char*, 3> kAxes{"X", "Y", "Z"};
 constexpr float kPlayWidth = 4.6f; ///< in font sizes
 
-/// A change by the widget that was just drawn; while it is held, all of them are one step to undo.
 void perform(Session& session, Command command) {
     command.arguments["seconds"] = session.motion.now.seconds;
-    command.arguments["continues"] = session.motion.isHeld;
-    session.perform(command);
-    session.motion.isHeld = ImGui::IsAnyItemActive();
+    performHeld(session, std::move(command));
 }
 
 /// The keys that the panel shows for the chosen deformer; null where it has none to show.
@@ -368,7 +366,6 @@ void drawSelected(Session& session) {
 
 void drawDeformPanel(const LayoutContext& context) {
     Session& session = context.session;
-    session.motion.isHeld &= ImGui::IsAnyItemActive();
     drawTime(context);
     drawList(session);
     drawAdd(session);

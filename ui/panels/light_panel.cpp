@@ -2,6 +2,7 @@
 
 #include "ui/theme.h"
 #include "ui/widgets/fields.h"
+#include "ui/widgets/held_change.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -67,7 +68,7 @@ void drawSelected(Session& session) {
     const auto change = [&](const char* name, nlohmann::json value) {
         Command command{"light.change", {{"light", index}}};
         command.arguments[name] = std::move(value);
-        session.perform(command);
+        performHeld(session, std::move(command));
     };
     // Strength and tint: a color of several W/m^2 is hard to pick as one.
     const bool isDirectional = light.kind == Light::Kind::Directional;
@@ -143,16 +144,16 @@ void drawEnvironment(Session& session, const LayoutActions& actions) {
     tooltip(environment.file.c_str());
     float strength = static_cast<float>(environment.strength);
     if (sliderField("Strength", strength, 0.0f, 10.0f, "%.2f", "Factor on the map's radiance")) {
-        session.perform({"environment.change", {{"strength", strength}}});
+        performHeld(session, {"environment.change", {{"strength", strength}}});
     }
     float turn = static_cast<float>(environment.turnDegrees);
     if (sliderField("Turn", turn, -180.0f, 180.0f, "%.0f\xc2\xb0", "About the vertical, degrees")) {
-        session.perform({"environment.change", {{"turn", turn}}});
+        performHeld(session, {"environment.change", {{"turn", turn}}});
     }
     int lights = environment.lights;
     if (sliderField("Lights", lights, 1, 128, "%d",
                     "Directional lights that stand for the map: more is smoother and slower")) {
-        session.perform({"environment.change", {{"lights", lights}}});
+        performHeld(session, {"environment.change", {{"lights", lights}}});
     }
     if (ImGui::Button("Remove the environment", {-1.0f, 0.0f})) {
         session.perform({"environment.close"});

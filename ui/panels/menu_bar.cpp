@@ -115,8 +115,8 @@ void drawEditMenu(const LayoutContext& context) {
         }
     };
     command(("Undo " + undo.value_or("")).c_str(), keys.text(Action::Undo),
-            "Takes back the last change of a material or of the deformers", {"edit.undo"},
-            undo.has_value());
+            "Takes back the last change: of a material, deformers, lights or a profile",
+            {"edit.undo"}, undo.has_value());
     command(("Redo " + redo.value_or("")).c_str(), keys.text(Action::Redo),
             "Repeats what was taken back last", {"edit.redo"}, redo.has_value());
     ImGui::Separator();

@@ -9,6 +9,7 @@
 #include "ui/slab_preview.h"
 #include "ui/theme.h"
 #include "ui/widgets/fields.h"
+#include "ui/widgets/held_change.h"
 #include "ui/widgets/profile_plot.h"
 #include "ui/widgets/profile_swatch.h"
 
@@ -27,11 +28,11 @@ constexpr std::array<const char*, 3> kChannels{"Red", "Green", "Blue"};
 void drawCurves(Session& session) {
     const float height = 190.0f * ImGui::GetFontSize() / 15.0f;
     if (const auto drag = drawProfilePlot(session.paint.primary.profile, height)) {
-        session.perform({"profile.knot",
-                         {{"which", "primary"},
-                          {"channel", drag->channel},
-                          {"knot", drag->knot},
-                          {"log", std::clamp(drag->logValue, -30.0f, 10.0f)}}});
+        performHeld(session, {"profile.knot",
+                              {{"which", "primary"},
+                               {"channel", drag->channel},
+                               {"knot", drag->knot},
+                               {"log", std::clamp(drag->logValue, -30.0f, 10.0f)}}});
     }
 }
 
@@ -46,7 +47,8 @@ void drawNumbers(Session& session) {
                         "Part of the light that comes out again: 2\xcf\x80 \xe2\x88\xab P r dr")) {
             glm::dvec3 wanted = albedo;
             wanted[c] = static_cast<double>(value);
-            session.perform({"profile.change", {{"which", "primary"}, {"albedo", toJson(wanted)}}});
+            performHeld(session,
+                        {"profile.change", {{"which", "primary"}, {"albedo", toJson(wanted)}}});
         }
     }
     heading("Effective radius R_P");
@@ -58,7 +60,8 @@ void drawNumbers(Session& session) {
                         "Radius in mm that holds 95 % of the scattered energy", true)) {
             glm::dvec3 wanted = radius;
             wanted[c] = static_cast<double>(value);
-            session.perform({"profile.change", {{"which", "primary"}, {"radius", toJson(wanted)}}});
+            performHeld(session,
+                        {"profile.change", {{"which", "primary"}, {"radius", toJson(wanted)}}});
         }
         ImGui::PopID();
     }

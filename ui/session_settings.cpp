@@ -1,0 +1,97 @@
+// What is set, not painted, and how it is undone, in one row with what was painted.
+#include "ui/session.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace celadon::ui {
+
+void Session::changeMotion(MotionSetting next, const std::string& title, bool continues) {
+    SettingPart before = MotionPart{motion.now.deformers, motion.now.animation};
+    setMotion(std::move(next));
+    mSettingHistory.add(std::move(before), title, editCount(), continues);
+}
+
+void Session::changeLights(LightRig next, const std::string& title, bool continues) {
+    SettingPart before = std::exchange(rig, std::move(next));
+    mSettingHistory.add(std::move(before), title, editCount(), continues);
+    touchPicture();
+}
+
+void Session::changeProfile(bool isSecondary, NamedProfile next, const std::string& title,
+                            bool continues) {
+    NamedProfile& changed = isSecondary ? paint.secondary : paint.primary;
+    SettingPart before = ProfilePart{isSecondary, std::exchange(changed, std::move(next))};
+    mSettingHistory.add(std::move(before), title, editCount(), continues);
+}
+
+void Session::swapProfiles() {
+    std::swap(paint.primary, paint.secondary);
+    mSettingHistory.swapProfiles();
+}
+
+void Session::turnLights(const Camera& about, double degrees) {
+    Camera turned = about;
+    turnAround(turned, rig, degrees);
+    mSettingHistory.turnLights(about, degrees);
+}
+
+SettingPart Session::set(const SettingPart& part) {
+    if (const auto* const moved = std::get_if<MotionPart>(&part)) {
+        const MotionSetting before = motion.now;
+        setMotion({moved->deformers, moved->animation, before.seconds});
+        keepChoice(before.deformers);
+        return MotionPart{before.deformers, before.animation};
+    }
+    if (const auto* const lights = std::get_if<LightRig>(&part)) {
+        LightRig before = std::exchange(rig, *lights);
+        selectedLight =
+            std::clamp(selectedLight, 0, std::max(0, static_cast<int>(rig.lights.size()) - 1));
+        followAnimation();
+        touchPicture();
+        return before;
+    }
+    const auto& held = std::get<ProfilePart>(part);
+    NamedProfile& changed = held.isSecondary ? paint.secondary : paint.primary;
+    return ProfilePart{held.isSecondary, std::exchange(changed, held.profile)};
+}
+
+std::optional<std::string> Session::undoTitle() const {
+    if (const std::string* const title = mSettingHistory.undoTitle(editCount())) {
+        return *title;
+    }
+    const int material = latestEdited();
+    return material >= 0 ? std::optional(editTitle(*document(material)->undoCommand()))
+                         : std::nullopt;
+}
+
+std::optional<std::string> Session::redoTitle() const {
+    if (const std::string* const title = mSettingHistory.redoTitle(editCount())) {
+        return *title;
+    }
+    const int material = nextRedone();
+    return material >= 0 ? std::optional(editTitle(*document(material)->redoCommand()))
+                         : std::nullopt;
+}
+
+Session::Undone Session::undo() {
+    if (mSettingHistory.undoTitle(editCount()) == nullptr) {
+        return undoEdit() ? Undone::Work : Undone::Nothing;
+    }
+    SettingPart before = set(SettingPart(mSettingHistory.undone()));
+    const bool isWork = std::holds_alternative<MotionPart>(before);
+    mSettingHistory.confirmUndo(std::move(before));
+    return isWork ? Undone::Work : Undone::Setting;
+}
+
+Session::Undone Session::redo() {
+    if (mSettingHistory.redoTitle(editCount()) == nullptr) {
+        return redoEdit() ? Undone::Work : Undone::Nothing;
+    }
+    SettingPart before = set(SettingPart(mSettingHistory.redone()));
+    const bool isWork = std::holds_alternative<MotionPart>(before);
+    mSettingHistory.confirmRedo(std::move(before));
+    return isWork ? Undone::Work : Undone::Setting;
+}
+
+} // namespace celadon::ui
