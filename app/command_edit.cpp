@@ -139,6 +139,10 @@ void edit(EditOptions o) {
         options.model = request.model;
         options.material =
             request.material.empty() ? std::nullopt : std::optional(request.material);
+        if (request.diameterMm) {
+            options.diameterMm = request.diameterMm;
+            options.millimetersPerUnit.reset();
+        }
         return readWorld(options, 0, request.readInstead);
     };
     e.services.describeMaterial = [](const subedit::MaterialMap& map,

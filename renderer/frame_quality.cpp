@@ -26,6 +26,7 @@ FrameSettings frameSettings(Quality quality) {
         splatting.alpha = 8.0;
         splatting.sampleAngle = 3.0;
         splatting.fade = 0.3;
+        settings.shadowSize = 512;
         break;
     case Quality::Default:
         splatting.refineShortRanges = true;

@@ -35,8 +35,12 @@ bool BackgroundOpen::poll() {
         OpenedScene scene = mFuture.get();
         if (mIsWanted) {
             mSession.adopt(mRequest, std::move(scene));
-            mSession.dispatcher().announce(
-                {"file.open", {{"model", mRequest.model}, {"material", mRequest.material}}});
+            Command opened{"file.open",
+                           {{"model", mRequest.model}, {"material", mRequest.material}}};
+            if (mRequest.diameterMm) {
+                opened.arguments["diameter"] = *mRequest.diameterMm;
+            }
+            mSession.dispatcher().announce(opened);
         }
     } catch (const std::exception& error) {
         if (mIsWanted) {

@@ -159,6 +159,12 @@ Editor::Editor(const EditorOptions& options)
 
 void Editor::keepJournal() {
     mSession.dispatcher().observe([this](const Command& command) {
+        if (command.name == "scene.size") { // the same scene: its journal goes on
+            mSeenWorld = mSession.worldRevision();
+            if (!mScript.isUnattended()) {
+                mTools.prepare();
+            }
+        }
         // Steps that are recovered stay in the journal that they come from until all are done.
         if (mPreferences.autosave && !mScript.isUnattended() && !mRecovery.isRunning()) {
             if (const auto problem = mJournal.add(command)) {

@@ -35,6 +35,13 @@ void FileActions::open(const OpenRequest& request) {
     }
 }
 
+void FileActions::putOn(const std::string& material) {
+    OpenRequest request = mSession.opened();
+    request.material = material;
+    request.readInstead.clear();
+    open(request);
+}
+
 void FileActions::openModel() {
     choose(FileDialog::Kind::Open, "Open a model",
            {".gltf", ".glb", ".obj", ".ply", ".off", ".stl"}, "", [this](const auto& file) {

@@ -23,7 +23,8 @@ public:
                 bool isUnattended);
 
     void open(const OpenRequest& request);
-    void putOn(const std::string& material) { open({mSession.opened().model, material}); }
+    /// On the model that is open, as large as it is.
+    void putOn(const std::string& material);
     void openModel();
     void openMaterial();
     void openEnvironment();

@@ -145,16 +145,26 @@ void exportGltf(Session& session, const std::filesystem::path& file) {
     }
 }
 
+double diameterOf(const Arguments& a) {
+    return a.numberWithin("diameter", 1e-3, 1e6);
+}
+
 } // namespace
 
 void addFileCommands(Session& session) {
     Dispatcher& commands = session.dispatcher();
-    commands.add("file.open", "Opens a model, with a material or its own",
+    commands.add("file.open", "Opens a model, with a material or its own; diameter in mm",
                  [&session](const Arguments& a) {
-                     const OpenRequest request{a.text("model"), a.text("material", "")};
+                     OpenRequest request{a.text("model"), a.text("material", "")};
+                     if (a.has("diameter")) {
+                         request.diameterMm = diameterOf(a);
+                     }
                      session.adopt(request, prepareScene(session.services().readWorld(request),
                                                          session.services().isPaintable));
                  });
+    commands.addLong(
+        "scene.size", "Makes the model so many mm large: diameter of its bounding sphere",
+        [&session](const Arguments& a) { session.resize(diameterOf(a)); }, true);
     commands.addLong("file.export", "Writes a glTF with the materials as SubEdit files beside it",
                      [&session](const Arguments& a) {
                          exportGltf(session, a.text("file"));

@@ -51,7 +51,7 @@ bool belongsToLiving(const std::filesystem::path& file) {
 bool changesWork(const Command& command) {
     const bool undoes = command.name == "edit.undo" || command.name == "edit.redo";
     return command.name == "paint.edit" || command.name == "material.activate" ||
-           (undoes && !command.arguments.value("setting", false)) ||
+           command.name == "scene.size" || (undoes && !command.arguments.value("setting", false)) ||
            command.name == "motion.animation" ||
            (command.name.starts_with("deform.") && command.name != "deform.save");
 }
@@ -81,7 +81,11 @@ std::optional<std::string> Journal::add(const Command& command) {
         std::filesystem::create_directories(mFolder, failed);
         mFile = mFolder / fmt::format("{}{}", ::getpid(), kSuffix);
         mStream.open(mFile, std::ios::trunc);
-        write({kHeader, {{"model", mOpened.model}, {"material", mOpened.material}}});
+        Command header{kHeader, {{"model", mOpened.model}, {"material", mOpened.material}}};
+        if (mOpened.diameterMm) {
+            header.arguments["diameter"] = *mOpened.diameterMm;
+        }
+        write(header);
         for (const auto& [file, kept] : mOpened.readInstead) {
             write({kKept, {{"file", file.string()}, {"as", kept.string()}}});
         }
@@ -166,6 +170,9 @@ std::optional<Recovery> findRecovery(const std::filesystem::path& folder) {
             const Arguments arguments(header);
             commands.erase(commands.begin());
             OpenRequest opened{arguments.text("model"), arguments.text("material"), {}};
+            if (arguments.has("diameter")) {
+                opened.diameterMm = arguments.number("diameter");
+            }
             std::string reason;
             std::erase_if(commands, [&](const Command& command) {
                 if (command.name == kReason) {

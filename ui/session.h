@@ -33,6 +33,8 @@ struct OpenRequest {
     /// Material files, by canonical path, and what is read in their place: how they were before a
     /// session that did not end well saved over them (journal.h).
     std::map<std::filesystem::path, std::filesystem::path> readInstead{};
+    /// Of the bounding sphere of what scatters; none: as the program was told, or the file says.
+    std::optional<double> diameterMm = std::nullopt;
     bool operator==(const OpenRequest&) const = default;
 };
 
@@ -99,6 +101,10 @@ public:
 
     /// A scene that was read elsewhere becomes the one that is worked on.
     void adopt(const OpenRequest& request, OpenedScene scene);
+    /// The model as large as this (session_size.cpp). Materials stay as they are painted, camera
+    /// and lights go along; what was done before can no longer be undone. May take a second.
+    /// @throws celadon::Error; nothing changes
+    void resize(double diameterMm);
 
     [[nodiscard]] bool hasWorld() const { return mWorld != nullptr; }
     /// Its materials belong to the picture's thread: documents have what is edited.
@@ -257,9 +263,10 @@ private:
     std::vector<std::shared_ptr<subedit::MaterialMap>> mRendered;
     std::vector<std::unique_ptr<subedit::Document>> mDocuments;
     std::vector<std::filesystem::path> mFiles; ///< of each, or empty
-    std::vector<std::uint64_t> mSaved;         ///< Document::contentId() of what is in the file
-    std::optional<std::size_t> mHistoryBytes;  ///< of each; else their default
-    int mStrokeMaterial = -1;                  ///< of the open stroke
+    static constexpr std::uint64_t kSavedNever = ~std::uint64_t{0};
+    std::vector<std::uint64_t> mSaved;        ///< Document::contentId() of what is in the file
+    std::optional<std::size_t> mHistoryBytes; ///< of each; else their default
+    int mStrokeMaterial = -1;                 ///< of the open stroke
     Stroke mStroke;
     std::vector<std::function<void()>> mWaiting; ///< for the end of the frame
     std::uint64_t mPictureRevision = 1;

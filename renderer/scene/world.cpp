@@ -77,21 +77,37 @@ int indexOf(std::vector<MaterialPointer>& materials, const MaterialPointer& mate
     return static_cast<int>(found - materials.begin());
 }
 
+void scaleMesh(Mesh& mesh, double factor) {
+    for (glm::vec3& position : mesh.positions) {
+        position = glm::vec3(glm::dvec3(position) * factor);
+    }
+}
+
+void scaleViewpoints(std::vector<Camera>& cameras, std::vector<Light>& lights, double factor) {
+    for (Camera& camera : cameras) {
+        camera.eye *= factor;
+        camera.at *= factor;
+        if (camera.orthographicHeight) {
+            *camera.orthographicHeight *= factor;
+        }
+    }
+    for (Light& light : lights) {
+        light.position *= factor; // its color is per square meter or steradian, whatever the scale
+    }
+}
+
 void scaleIntoMillimeters(Scene& scene, double unit) {
     for (Mesh& mesh : scene.meshes) {
-        for (glm::vec3& position : mesh.positions) {
-            position = glm::vec3(glm::dvec3(position) * unit);
-        }
+        scaleMesh(mesh, unit);
     }
-    for (Camera& camera : scene.cameras) {
-        camera.eye *= unit;
-        camera.at *= unit;
-        if (camera.orthographicHeight) {
-            *camera.orthographicHeight *= unit;
-        }
-    }
-    for (Light& light : scene.lights) {
-        light.position *= unit; // its color is per square meter or steradian, whatever the scale
+    scaleViewpoints(scene.cameras, scene.lights, unit);
+}
+
+void requireReachableRadius(const std::string& subject, double radiusMm) {
+    if (!(radiusMm >= kSmallestRadiusMm && radiusMm <= kLargestRadiusMm)) {
+        throw InputError(
+            subject, fmt::format("its bounding sphere would have a radius of {:g} mm", radiusMm),
+            "set its size with --diameter");
     }
 }
 
@@ -137,11 +153,7 @@ World buildWorld(Scene scene, const MaterialPointer& override,
     }
     const double unit = chooseMillimetersPerUnit(scene, scale, 2.0 * rest.radius);
     const double radiusMm = unit * rest.radius;
-    if (!(radiusMm >= kSmallestRadiusMm && radiusMm <= kLargestRadiusMm)) {
-        throw InputError(
-            subject, fmt::format("its bounding sphere would have a radius of {:g} mm", radiusMm),
-            "set its size with --diameter");
-    }
+    requireReachableRadius(subject, radiusMm);
 
     World world;
     world.handleGround = std::make_shared<HandleGround>();
@@ -167,6 +179,23 @@ World buildWorld(Scene scene, const MaterialPointer& override,
             {std::move(scene.meshes[m]), indexOf(world.materials, materials[m])});
     }
     addMissingUvs(world);
+    return world;
+}
+
+World resized(World world, double factor) {
+    requireReachableRadius("the model", factor * world.scatteringSphere.radius);
+    requireReachableRadius("the model", factor * world.sceneSphere.radius);
+    for (WorldMesh& part : world.meshes) {
+        scaleMesh(part.mesh, factor);
+    }
+    scaleViewpoints(world.cameras, world.lights, factor);
+    for (BoundingSphere* const sphere : {&world.scatteringSphere, &world.sceneSphere}) {
+        sphere->center *= factor;
+        sphere->radius *= factor;
+    }
+    world.millimetersPerUnit *= factor;
+    world.handleGround = std::make_shared<HandleGround>();
+    world.warnings.clear();
     return world;
 }
 

@@ -60,4 +60,8 @@ struct WorldScale {
                                const std::vector<MaterialPointer>& namedMaterials,
                                const MaterialPointer& fallback, const WorldScale& scale);
 
+/// The same model of another size: lengths times a factor, materials as they are.
+/// @throws InputError for a size that numbers do not reach
+[[nodiscard]] World resized(World world, double factor);
+
 } // namespace celadon

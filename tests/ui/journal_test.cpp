@@ -25,7 +25,7 @@ TEST(Journal, IsFoundAfterACrashAndHoldsWhatChangesMaterials) {
     const test::TemporaryFolder folder;
     {
         Journal journal(folder.path());
-        journal.begin({"a model", "a material"});
+        journal.begin({"a model", "a material", {}, 250.0});
         EXPECT_FALSE(journal.add({"camera.orbit"}));
         EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
         EXPECT_FALSE(journal.add(kEdit));
@@ -39,6 +39,7 @@ TEST(Journal, IsFoundAfterACrashAndHoldsWhatChangesMaterials) {
     ASSERT_TRUE(found);
     EXPECT_EQ(found->opened.model, "a model");
     EXPECT_EQ(found->opened.material, "a material");
+    EXPECT_EQ(found->opened.diameterMm, 250.0);
     ASSERT_EQ(found->commands.size(), 2u);
     EXPECT_EQ(found->commands[1].name, "edit.undo");
 }

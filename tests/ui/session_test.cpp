@@ -704,6 +704,48 @@ TEST_F(SessionTest, UndoFollowsProfilesAndLightsThatWentOn) {
     EXPECT_FALSE(session.redoTitle()); // what was taken back is gone
 }
 
+TEST_F(SessionTest, SizeChangesMillimetersAndNothingElse) {
+    session.execute({"light.add", {{"kind", "point"}}});
+    paintStroke();
+    const std::vector<float> painted = map().logProfile;
+    const std::vector<glm::vec2> uvs = session.world().meshes.front().mesh.uvs;
+    const double distance = glm::distance(session.camera.eye, session.camera.at);
+    const RigLight light = session.rig.lights.back();
+    const float brush = session.paint.brush.radiusMm;
+    session.execute({"scene.size", {{"diameter", 400.0}}});
+    EXPECT_NEAR(session.world().scatteringSphere.radius, 200.0, 1e-3);
+    EXPECT_EQ(map().logProfile, painted); // in mm as before, of a model ten times as large
+    EXPECT_EQ(session.world().meshes.front().mesh.uvs, uvs);
+    EXPECT_TRUE(session.isModified());
+    EXPECT_FALSE(session.undoTitle());
+    EXPECT_NEAR(glm::distance(session.camera.eye, session.camera.at), 10.0 * distance, 1e-3);
+    const RigLight& moved = session.rig.lights.back();
+    EXPECT_LT(glm::distance(moved.light.position, 10.0 * light.light.position), 1e-3);
+    EXPECT_NEAR(moved.light.color.x / light.light.color.x, 100.0, 1e-3); // as bright there
+    EXPECT_FLOAT_EQ(session.paint.brush.radiusMm, 10.0f * brush);
+    EXPECT_EQ(session.opened().diameterMm, 400.0);
+    // Strokes lie on the model as it is now.
+    const glm::vec3 center(session.world().scatteringSphere.center);
+    const subedit::Surface& surface = session.activeDocument()->surface();
+    EXPECT_NEAR(glm::distance(surface.positionMm(surface.coveredTexels().front()), center), 200.0f,
+                1.0f);
+    EXPECT_THROW(session.execute({"scene.size", {{"diameter", -1.0}}}), UsageError);
+    // The same again from what was recorded.
+    Session again({readBall, describe, true});
+    for (const Command& command : recorded) {
+        again.execute(parseCommand(formatCommand(command)));
+    }
+    EXPECT_EQ(again.activeDocument()->material().logProfile, painted);
+    EXPECT_NEAR(again.world().scatteringSphere.radius, 200.0, 1e-3);
+    // What is saved is not modified by a size.
+    const test::TemporaryFolder folder;
+    session.execute({"file.save", {{"file", (folder.path() / "a.subedit.exr").string()}}});
+    EXPECT_FALSE(session.isModified());
+    session.execute({"scene.size", {{"diameter", 40.0}}});
+    EXPECT_FALSE(session.isModified());
+    EXPECT_EQ(session.materialFile(0), folder.path() / "a.subedit.exr");
+}
+
 TEST_F(SessionTest, EveryCommandHasASummary) {
     for (const auto& [name, entry] : session.dispatcher().entries()) {
         EXPECT_FALSE(entry.summary.empty()) << name;

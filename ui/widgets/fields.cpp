@@ -83,6 +83,29 @@ bool sliderField(const char* name, int& value, int least, int most, const char* 
     return changed;
 }
 
+bool numberField(const char* name, double& value, const char* format, const char* help) {
+    static ImGuiID typedField = 0; // there is one at most
+    static double typed = 0.0;
+    ImGui::PushID(name);
+    label(name, help);
+    const ImGuiID field = ImGui::GetID("##value");
+    double shown = field == typedField ? typed : value;
+    ImGui::InputDouble("##value", &shown, 0.0, 0.0, format);
+    const bool isDone = ImGui::IsItemDeactivatedAfterEdit();
+    if (ImGui::IsItemActive()) {
+        typedField = field;
+        typed = shown;
+    } else if (field == typedField) {
+        typedField = 0;
+    }
+    tooltip(help);
+    ImGui::PopID();
+    if (isDone) {
+        value = shown;
+    }
+    return isDone;
+}
+
 bool colorField(const char* name, float rgb[3], const char* help) {
     ImGui::PushID(name);
     label(name, help);
