@@ -63,6 +63,17 @@ void drawCurrent(Session& session) {
             "Median distance of neighboring texels on the surface, mm");
 }
 
+/// What a radius in mm means depends on it.
+void drawSize(Session& session) {
+    double diameterMm = 2.0 * session.world().scatteringSphere.radius;
+    if (numberField("Model across", diameterMm, "%.6g mm",
+                    "Diameter in mm of the sphere about the model. Light reaches as far as the "
+                    "material says: a smaller model is more translucent. Steps before a change of "
+                    "size can no longer be undone")) {
+        session.perform({"scene.size", {{"diameter", diameterMm}}});
+    }
+}
+
 void drawSaving(const LayoutContext& context) {
     if (context.session.activeDocument() == nullptr) {
         return;
@@ -162,6 +173,7 @@ void drawCards(const LayoutContext& context, const char* title,
 
 void drawMaterialPanel(const LayoutContext& context) {
     drawCurrent(context.session);
+    drawSize(context.session);
     drawSaving(context);
     ImGui::Spacing();
     hint("Click: into the hand as primary profile. Double click: onto the whole model.");

@@ -75,17 +75,6 @@ void drawCamera(Session& session, const KeyMap& keys) {
     }
 }
 
-void drawSize(Session& session) {
-    heading("Size of the model");
-    double diameterMm = 2.0 * session.world().scatteringSphere.radius;
-    if (numberField("Across", diameterMm, "%.6g mm",
-                    "Diameter of its bounding sphere in mm. Light reaches as far as the material "
-                    "says: a smaller model is more translucent. Strokes before the change can no "
-                    "longer be undone")) {
-        session.perform({"scene.size", {{"diameter", diameterMm}}});
-    }
-}
-
 void drawTurntable(const LayoutContext& context) {
     heading("Turntable");
     const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
@@ -262,7 +251,6 @@ void drawViewPanel(const LayoutContext& context) {
     drawModes(context);
     drawTimings(context.viewport);
     drawCamera(context.session, context.preferences.keys);
-    drawSize(context.session);
     drawTurntable(context);
 }
 

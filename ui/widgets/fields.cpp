@@ -90,7 +90,7 @@ bool numberField(const char* name, double& value, const char* format, const char
     label(name, help);
     const ImGuiID field = ImGui::GetID("##value");
     double shown = field == typedField ? typed : value;
-    ImGui::InputDouble("##value", &shown, 0.0, 0.0, format);
+    ImGui::InputDouble("##value", &shown, 0.0, 0.0, format, ImGuiInputTextFlags_AutoSelectAll);
     const bool isDone = ImGui::IsItemDeactivatedAfterEdit();
     if (ImGui::IsItemActive()) {
         typedField = field;
@@ -100,10 +100,11 @@ bool numberField(const char* name, double& value, const char* format, const char
     }
     tooltip(help);
     ImGui::PopID();
-    if (isDone) {
+    const bool isChanged = isDone && shown != value;
+    if (isChanged) {
         value = shown;
     }
-    return isDone;
+    return isChanged;
 }
 
 bool colorField(const char* name, float rgb[3], const char* help) {

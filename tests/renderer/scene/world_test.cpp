@@ -100,6 +100,43 @@ TEST(BuildWorld, PositionsCamerasAndLightsBecomeMillimeters) {
     EXPECT_EQ(world.lights[0].color, light.color);
 }
 
+TEST(ResizedWorld, IsTheOneThatIsBuiltThatLarge) {
+    Scene scene = twoParts();
+    Camera camera;
+    camera.eye = {0, 2, 5};
+    camera.orthographicHeight = 3.0;
+    scene.cameras = {camera};
+    Light light;
+    light.position = {4, 5, 6};
+    scene.lights = {light};
+    const MaterialPointer jade = makeMaterial();
+    const auto built = [&](double diameterMm) {
+        return buildWorld(scene, nullptr, {jade, nullptr}, makeMaterial(), {{}, diameterMm});
+    };
+    const World world = resized(built(100.0), 2.5);
+    const World expected = built(250.0);
+    EXPECT_NEAR(world.millimetersPerUnit, expected.millimetersPerUnit, 1e-9);
+    EXPECT_NEAR(world.scatteringSphere.radius, 125.0, 1e-3);
+    EXPECT_NEAR(world.sceneSphere.radius, expected.sceneSphere.radius, 1e-3);
+    EXPECT_LT(glm::distance(world.sceneSphere.center, expected.sceneSphere.center), 1e-3);
+    for (std::size_t m = 0; m < world.meshes.size(); ++m) {
+        const Mesh& mesh = world.meshes[m].mesh;
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            EXPECT_LT(glm::distance(mesh.positions[i], expected.meshes[m].mesh.positions[i]),
+                      1e-3f);
+        }
+        EXPECT_EQ(mesh.uvs, expected.meshes[m].mesh.uvs);
+    }
+    EXPECT_LT(glm::distance(world.cameras[0].eye, expected.cameras[0].eye), 1e-9);
+    EXPECT_NEAR(*world.cameras[0].orthographicHeight, *expected.cameras[0].orthographicHeight,
+                1e-9);
+    EXPECT_LT(glm::distance(world.lights[0].position, expected.lights[0].position), 1e-9);
+    EXPECT_EQ(world.lights[0].color, light.color);
+    EXPECT_EQ(world.materials, expected.materials);
+    EXPECT_NE(world.handleGround, nullptr);
+    EXPECT_THROW(static_cast<void>(resized(world, 1e300)), InputError);
+}
+
 TEST(BuildWorld, RefusesWhatHasNoSize) {
     const MaterialPointer wax = makeMaterial();
     EXPECT_THROW((void)buildWorld(Scene{}, wax, {}, wax, {}), InputError);
