@@ -53,7 +53,7 @@ StampImage readStamp(const std::filesystem::path& file) {
     return stamp;
 }
 
-/// Points as [x, y, z, nx, ny, nz], mm.
+/// Points as [x, y, z, nx, ny, nz], mm; `lifted` numbers those that come after a gap.
 std::vector<subedit::StrokePoint> pathOf(const Arguments& a) {
     std::vector<subedit::StrokePoint> path;
     const std::vector<double> v = a.numbers("path");
@@ -62,6 +62,14 @@ std::vector<subedit::StrokePoint> pathOf(const Arguments& a) {
         point.positionMm = glm::vec3(v[i], v[i + 1], v[i + 2]);
         point.normal = glm::vec3(v[i + 3], v[i + 4], v[i + 5]);
         path.push_back(point);
+    }
+    if (a.has("lifted")) {
+        for (const double number : a.numbers("lifted")) {
+            if (!(number >= 0.0 && number < static_cast<double>(path.size()))) {
+                throw UsageError("scribble", "a lifted point is none of its path");
+            }
+            path[static_cast<std::size_t>(number)].isLifted = true;
+        }
     }
     return path;
 }
@@ -81,8 +89,8 @@ void addScribbles(Session& session) {
     Dispatcher& commands = session.dispatcher();
     commands.add(
         "scribble.add",
-        "A rough stroke for propagation: path [x,y,z,nx,ny,nz, ...] in mm, strength 1, or 0 "
-        "for what is to be left alone",
+        "A rough stroke for propagation: path [x,y,z,nx,ny,nz, ...] in mm, numbers of points "
+        "lifted over a gap, strength 1, or 0 for what is to be left alone",
         [&session](const Arguments& a) {
             subedit::Scribble scribble;
             scribble.brush = session.paint.brush;

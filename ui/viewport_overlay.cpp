@@ -120,16 +120,23 @@ void drawBrush(const Canvas& canvas, SurfacePicker& picker, glm::dvec2 at) {
 
 void drawScribbles(const Canvas& canvas, const SurfacePicker& picker) {
     for (const subedit::Scribble& scribble : canvas.session.paint.propagation.scribbles) {
+        const ImU32 color = scribble.strength > 0.5f ? kAccent : IM_COL32(236, 150, 120, 235);
         std::vector<ImVec2> points;
+        const auto drawPoints = [&] {
+            if (points.size() > 1) {
+                canvas.line(points.data(), static_cast<int>(points.size()), color, false);
+            } else if (!points.empty()) {
+                canvas.list.AddCircleFilled(points.front(), 3.0f * canvas.scale, color);
+            }
+            points.clear();
+        };
         for (const subedit::StrokePoint& point : scribble.path) {
+            if (point.isLifted) {
+                drawPoints();
+            }
             points.push_back(canvas.at(picker.shown(glm::dvec3(point.positionMm))));
         }
-        const ImU32 color = scribble.strength > 0.5f ? kAccent : IM_COL32(236, 150, 120, 235);
-        if (points.size() > 1) {
-            canvas.line(points.data(), static_cast<int>(points.size()), color, false);
-        } else if (!points.empty()) {
-            canvas.list.AddCircleFilled(points.front(), 3.0f * canvas.scale, color);
-        }
+        drawPoints();
     }
 }
 

@@ -25,6 +25,26 @@ bool isForTool(const InputEvent& press) {
     return press.button == GLFW_MOUSE_BUTTON_LEFT && (press.modifiers & GLFW_MOD_ALT) == 0;
 }
 
+/// Its points as numbers, and which of them begin anew after a gap.
+Command scribbleCommand(const std::vector<subedit::StrokePoint>& path, bool isInverted) {
+    Command command{"scribble.add", {{"strength", isInverted ? 0.0 : 1.0}}};
+    std::vector<double> numbers;
+    std::vector<std::size_t> lifted;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        for (const glm::dvec3 v : {glm::dvec3(path[i].positionMm), glm::dvec3(path[i].normal)}) {
+            numbers.insert(numbers.end(), {v.x, v.y, v.z});
+        }
+        if (path[i].isLifted) {
+            lifted.push_back(i);
+        }
+    }
+    command.arguments["path"] = numbers;
+    if (!lifted.empty()) {
+        command.arguments["lifted"] = lifted;
+    }
+    return command;
+}
+
 } // namespace
 
 int ViewportTools::lightAt(glm::dvec2 positionPx, const ViewportRect& rect) const {
@@ -219,11 +239,11 @@ void ViewportTools::move(const InputEvent& event, const ViewportRect& rect) {
         dragControlBy(delta, rect);
         break;
     case Drag::Paint:
+    case Drag::Scribble:
         paintTo(event, rect);
         break;
-    case Drag::Scribble:
     case Drag::Line:
-        dragOverSurface(event.positionPx, rect);
+        drawLineTo(event.positionPx, rect);
         break;
     case Drag::None:
         break;
@@ -234,24 +254,16 @@ void ViewportTools::finishDrag() {
     if (mDrag == Drag::Paint) {
         mSession.endStroke();
     } else if (mDrag == Drag::Scribble) {
-        mSession.perform(
-            {"scribble.add", {{"path", mScribble}, {"strength", mInverted ? 0.0 : 1.0}}});
+        mSession.perform(scribbleCommand(mScribble, mInverted));
         mScribble.clear();
     }
     mDrag = Drag::None;
     mButton = -1;
 }
 
-void ViewportTools::dragOverSurface(glm::dvec2 positionPx, const ViewportRect& rect) {
+void ViewportTools::drawLineTo(glm::dvec2 positionPx, const ViewportRect& rect) {
     const std::optional<SurfacePoint> hit = mPicker.pickAtRest(positionPx, rect);
-    if (!hit) {
-        return;
-    }
-    if (mDrag == Drag::Scribble) {
-        for (const glm::dvec3& v : {hit->positionMm, hit->shadingNormal}) {
-            mScribble.insert(mScribble.end(), {v.x, v.y, v.z});
-        }
-    } else if (hit->positionMm != mLineFrom) {
+    if (hit && hit->positionMm != mLineFrom) {
         mSession.perform(
             {"gradient.line", {{"from", toJson(mLineFrom)}, {"to", toJson(hit->positionMm)}}});
     }
@@ -331,7 +343,8 @@ void ViewportTools::pressSurface(const SurfacePoint& hit, const InputEvent& even
         activate(hit.material);
         mDrag = Drag::Scribble;
         mScribble.clear();
-        dragOverSurface(event.positionPx, rect);
+        beginPath(event, hit.material);
+        addToPath(event.positionPx, 1.0f, rect);
         return;
     }
     if (paint.tool == Tool::Paint && paint.op == PaintOperator::Gradient && isShifted) {
@@ -351,22 +364,20 @@ void ViewportTools::pressSurface(const SurfacePoint& hit, const InputEvent& even
         paint.cloneTarget->normal = glm::vec3(hit.shadingNormal);
     }
     mDrag = Drag::Paint;
-    mPaintedPx = event.positionPx;
-    mPaintedPressure = pressureOf(event);
-    mLastPoint.reset();
-    paintPoint(event.positionPx, mPaintedPressure, rect);
+    beginPath(event, hit.material);
+    addToPath(event.positionPx, mPaintedPressure, rect);
 }
 
 float ViewportTools::pressureOf(const InputEvent& event) const {
     return mSession.paint.heedsPressure ? event.pressure : 1.0f;
 }
 
-bool ViewportTools::paintPoint(glm::dvec2 positionPx, float pressure, const ViewportRect& rect) {
+std::optional<subedit::StrokePoint> ViewportTools::pathPoint(glm::dvec2 positionPx, float pressure,
+                                                             const ViewportRect& rect) {
     const std::optional<SurfacePoint> hit = mPicker.pickAtRest(positionPx, rect);
-    if (!hit || hit->material < 0 ||
-        (mSession.isStrokeOpen() && hit->material != mSession.activeMaterial)) {
+    if (!hit || hit->material < 0 || hit->material != mPathMaterial) {
         mLastPoint.reset();
-        return false;
+        return std::nullopt;
     }
     subedit::StrokePoint point;
     point.positionMm = glm::vec3(hit->positionMm);
@@ -374,22 +385,37 @@ bool ViewportTools::paintPoint(glm::dvec2 positionPx, float pressure, const View
     point.pressure = pressure;
     // After a gap, or where the surface jumps, the path begins anew: nothing between is painted.
     constexpr double kJump = 2.5; // radii
-    const bool goesOn =
-        mLastPoint && glm::distance(*mLastPoint, hit->positionMm) <
-                          kJump * static_cast<double>(mSession.paint.brush.radiusMm);
-    if (mSession.isStrokeOpen()) {
-        point.isLifted = !goesOn;
-        mSession.addStrokePoint(point);
+    point.isLifted = !mLastPoint || glm::distance(*mLastPoint, hit->positionMm) >=
+                                        kJump * static_cast<double>(mSession.paint.brush.radiusMm);
+    mLastPoint = hit->positionMm;
+    return point;
+}
+
+void ViewportTools::beginPath(const InputEvent& event, int material) {
+    mPaintedPx = event.positionPx;
+    mPaintedPressure = pressureOf(event);
+    mPathMaterial = material;
+    mLastPoint.reset();
+}
+
+void ViewportTools::addToPath(glm::dvec2 positionPx, float pressure, const ViewportRect& rect) {
+    std::optional<subedit::StrokePoint> point = pathPoint(positionPx, pressure, rect);
+    if (!point) {
+        return;
+    }
+    if (mDrag == Drag::Scribble) {
+        point->isLifted = point->isLifted && !mScribble.empty();
+        mScribble.push_back(*point);
+    } else if (mSession.isStrokeOpen()) {
+        mSession.addStrokePoint(*point);
     } else {
+        point->isLifted = false;
         try {
-            mSession.beginStroke(hit->material, point, mInverted);
+            mSession.beginStroke(mPathMaterial, *point, mInverted);
         } catch (const Error& error) {
             mSession.notify(error);
-            return false;
         }
     }
-    mLastPoint = hit->positionMm;
-    return true;
 }
 
 void ViewportTools::paintTo(const InputEvent& event, const ViewportRect& rect) {
@@ -407,8 +433,8 @@ void ViewportTools::paintTo(const InputEvent& event, const ViewportRect& rect) {
                    kMostPoints);
     for (int i = 1; i <= steps; ++i) {
         const double along = static_cast<double>(i) / steps;
-        paintPoint(glm::mix(from, event.positionPx, along),
-                   glm::mix(mPaintedPressure, pressure, static_cast<float>(along)), rect);
+        addToPath(glm::mix(from, event.positionPx, along),
+                  glm::mix(mPaintedPressure, pressure, static_cast<float>(along)), rect);
     }
     mPaintedPx = event.positionPx;
     mPaintedPressure = pressure;

@@ -75,13 +75,18 @@ private:
     /// @return whether the surface is there
     bool addHandleAt(glm::dvec2 positionPx, const ViewportRect& rect);
     void pressTool(const InputEvent& event, const ViewportRect& rect);
+    /// A stroke or a scribble over the surface, on one material.
+    void beginPath(const InputEvent& event, int material);
     void paintTo(const InputEvent& event, const ViewportRect& rect);
-    bool paintPoint(glm::dvec2 positionPx, float pressure, const ViewportRect& rect);
+    void addToPath(glm::dvec2 positionPx, float pressure, const ViewportRect& rect);
+    /// None beside the surface.
+    [[nodiscard]] std::optional<subedit::StrokePoint>
+    pathPoint(glm::dvec2 positionPx, float pressure, const ViewportRect& rect);
     /// Of a brush that listens to it; else 1.
     [[nodiscard]] float pressureOf(const InputEvent& event) const;
     void adjust(glm::dvec2 positionPx);
     void pressSurface(const SurfacePoint& hit, const InputEvent& event, const ViewportRect& rect);
-    void dragOverSurface(glm::dvec2 positionPx, const ViewportRect& rect);
+    void drawLineTo(glm::dvec2 positionPx, const ViewportRect& rect);
     void finishDrag();
     [[nodiscard]] std::optional<glm::dvec2> brushPlace(const ViewportRect& rect) const;
 
@@ -100,6 +105,7 @@ private:
     glm::dvec2 mPaintedPx{0.0};           ///< where the stroke has come
     float mPaintedPressure = 1.0f;        ///< and with how much pressure
     bool mInverted = false;               ///< Ctrl was down as the stroke began, or it erases
+    int mPathMaterial = -1;               ///< on which the stroke began, and stays
     std::optional<glm::dvec3> mLastPoint; ///< of the stroke, mm; none after a gap
     struct Adjusting {
         Adjust what = Adjust::Radius;
@@ -109,8 +115,8 @@ private:
     std::optional<Adjusting> mAdjust;
     SurfacePicker mPicker;
     std::optional<glm::dvec2> mPretended;
-    std::vector<double> mScribble; ///< [x, y, z, nx, ny, nz] of each point
-    glm::dvec3 mLineFrom{0.0};     ///< of a gradient
+    std::vector<subedit::StrokePoint> mScribble;
+    glm::dvec3 mLineFrom{0.0}; ///< of a gradient
 };
 
 } // namespace celadon::ui

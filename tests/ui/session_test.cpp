@@ -545,6 +545,28 @@ TEST_F(SessionTest, ScribblesSpreadToWhatResemblesThem) {
     EXPECT_EQ(changedFar, 0u);
 }
 
+TEST_F(SessionTest, ScribblesLeaveOutTheirGaps) {
+    const auto add = [this](const nlohmann::json& lifted) {
+        Command command{"scribble.add",
+                        {{"path", {20, 0, 0, 1, 0, 0, 0, 0, 20, 0, 0, 1, 0, 20, 0, 0, 1, 0}},
+                         {"strength", 1.0}}};
+        if (!lifted.is_null()) {
+            command.arguments["lifted"] = lifted;
+        }
+        session.execute(command);
+    };
+    add({1});
+    add(nullptr);
+    const auto& scribbles = session.paint.propagation.scribbles;
+    ASSERT_EQ(scribbles.size(), 2u);
+    EXPECT_TRUE(scribbles[0].path[1].isLifted);
+    EXPECT_FALSE(scribbles[0].path[2].isLifted);
+    EXPECT_FALSE(scribbles[1].path[1].isLifted);
+    EXPECT_THROW(add({3}), UsageError);
+    EXPECT_THROW(add({-1}), UsageError);
+    EXPECT_EQ(scribbles.size(), 2u);
+}
+
 TEST_F(SessionTest, GradientNeedsItsLineAndRunsAlongIt) {
     session.execute({"operator.change", {{"name", "gradient"}}});
     EXPECT_FALSE(session.perform({"edit.fill"}));
