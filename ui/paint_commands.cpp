@@ -108,10 +108,17 @@ void Session::tell(const subedit::EditReport& report, bool isSelection) {
                                                "needed more range",
                                                *report.grownRadiusMm));
     }
-    if (report.texels == 0 && !isSelection && activeDocument() != nullptr &&
-        activeDocument()->selection().isZero()) {
-        notify(Notice::Kind::Warning, "Nothing is selected, so nothing changes: Select all, in the "
-                                      "Edit menu, ends that");
+    if (report.texels == 0 && !isSelection && activeDocument() != nullptr) {
+        const subedit::WeightMask& selection = activeDocument()->selection();
+        if (selection.isZero()) {
+            notify(Notice::Kind::Warning,
+                   "Nothing is selected, so nothing changes: Select all, in the "
+                   "Edit menu, ends that");
+        } else if (selection != subedit::WeightMask::full(selection.width(), selection.height())) {
+            notify(Notice::Kind::Warning,
+                   "That lies outside of what is selected, so nothing changes: "
+                   "Select all, in the Edit menu, ends that");
+        }
     }
     if (report.texels > 0 && 4 * report.rangeClamped > report.texels) {
         notify(Notice::Kind::Warning, "The range is at its limit: most of the edit was clamped");

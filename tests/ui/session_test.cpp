@@ -175,6 +175,29 @@ TEST_F(SessionTest, SelectingNeedsNothingThatTheOperatorLacks) {
     EXPECT_FALSE(session.isModified());
 }
 
+TEST_F(SessionTest, PaintingOutsideOfTheSelectionIsSaid) {
+    const auto lastNotice = [this] {
+        return session.notices.empty() ? std::string() : session.notices.back().text;
+    };
+    session.execute({"select.change", {{"what", "none"}}});
+    session.execute({"tool.choose", {{"name", "select"}}});
+    session.execute({"brush.change", {{"radius", 6.0}}});
+    paintStroke(); // selects the side that faces +z
+    session.execute({"select.change", {{"what", "invert"}}});
+    session.execute({"tool.choose", {{"name", "paint"}}});
+    session.execute({"brush.change", {{"radius", 1.0}}});
+    session.notices.clear();
+    const std::vector<float> before = map().logProfile;
+    paintStroke();
+    EXPECT_EQ(map().logProfile, before);
+    EXPECT_NE(lastNotice().find("outside of what is selected"), std::string::npos);
+    session.notices.clear();
+    session.execute({"select.change", {{"what", "all"}}});
+    paintStroke();
+    EXPECT_NE(map().logProfile, before);
+    EXPECT_EQ(lastNotice().find("selected"), std::string::npos);
+}
+
 TEST_F(SessionTest, StepsAreCalledAsTheOperatorsAreOnScreen) {
     paintStroke();
     EXPECT_EQ(session.undoTitle(), "Profile stroke");
