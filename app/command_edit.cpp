@@ -177,6 +177,7 @@ void edit(EditOptions o) {
         motion.seconds = scene.timeSeconds.value_or(0.0);
         session.setMotion(std::move(motion));
         session.markDeformersSaved();
+        session.forgetSettings();
         if (exposure || !scene.lights.empty()) {
             session.view.exposureEv = static_cast<float>(exposure.value_or(0.0));
         }

@@ -161,6 +161,7 @@ void Editor::keepJournal() {
     mSession.dispatcher().observe([this](const Command& command) {
         if (command.name == "scene.size") { // the same scene: its journal goes on
             mSeenWorld = mSession.worldRevision();
+            mSeenScene = mSession.opened();
             if (!mScript.isUnattended()) {
                 mTools.prepare();
             }
@@ -172,6 +173,7 @@ void Editor::keepJournal() {
             }
         }
     });
+    mSession.beforeResizing = [this] { mFiles.finishSaving(); };
     mSession.beforeWriting = [this](const std::filesystem::path& file) {
         if (const auto problem = mJournal.keep(file)) {
             mSession.notify(Notice::Kind::Warning, *problem);
@@ -356,7 +358,9 @@ void Editor::poll() {
                             "changes that are not saved");
         } else {
             // As the files are now, even if a recovery opened them as they had been.
-            mOpen.start({mSession.opened().model, mSession.opened().material});
+            OpenRequest again = mSession.opened();
+            again.readInstead.clear();
+            mOpen.start(again);
         }
         mFramesToDraw = kSettlingFrames;
     }
@@ -620,7 +624,9 @@ void Editor::handleInput() {
         }
     }
     for (const InputEvent& event : events) {
-        const bool overUi = io.WantCaptureMouse && !mTools.isDragging();
+        // A press beside a field that is being typed in only leaves it.
+        const bool leavesField = event.kind == InputEvent::Kind::Press && io.WantTextInput;
+        const bool overUi = (io.WantCaptureMouse || leavesField) && !mTools.isDragging();
         if (mustWait(event, overUi)) {
             mLater.push_back(event);
         } else if (event.kind == InputEvent::Kind::Key) {

@@ -59,6 +59,7 @@ public:
     void remember(const OpenRequest& opened);
     void savePreferences();
 
+    void finishSaving() { mSave.wait(); }
     [[nodiscard]] const BackgroundSave& saving() const { return mSave; }
     /// Takes note of saves that are done. @return whether something changed
     bool poll() { return mSave.poll(); }

@@ -62,7 +62,7 @@ struct Recovery {
 [[nodiscard]] std::optional<Recovery> findRecovery(const std::filesystem::path& folder);
 /// Removes a journal and what was kept beside it.
 void discard(const Recovery& recovery);
-/// Whether a command is kept in a journal: it changes a material or the deformers.
+/// Whether a command is kept in a journal: it changes a material, the deformers or the size.
 [[nodiscard]] bool changesWork(const Command& command);
 
 } // namespace celadon::ui

@@ -34,7 +34,7 @@ Command editCommand(int material, const subedit::EditCommand& edit) {
 /// After an edit by hand: what follows from it, what there is to say, and its record.
 void finishEdit(Session& session, int material, const subedit::EditCommand& edit,
                 const subedit::EditReport& report) {
-    session.dropUndone(material);
+    session.dropUndone();
     session.dispatcher().announce(editCommand(material, edit));
     session.tell(report, std::holds_alternative<subedit::SelectCommand>(edit));
     session.touchMaterial();
@@ -220,7 +220,7 @@ void addPaintCommands(Session& session) {
                      subedit::Document& document = documentOf(session, material);
                      session.activeMaterial = material; // as by the hand that did it
                      document.execute(edit, session.progressOf(editTitle(edit)));
-                     session.dropUndone(material);
+                     session.dropUndone();
                      session.touchMaterial();
                  });
     // Both may take long, so they are recorded when they are done.

@@ -102,17 +102,18 @@ void addProfileCommands(Session& session) {
     Dispatcher& commands = session.dispatcher();
     commands.add("profile.swap", "Primary becomes secondary and the other way round",
                  [&session](const Arguments&) { session.swapProfiles(); });
-    commands.add("profile.pick", "Takes the profile at a place of the map: uv",
-                 [&session](const Arguments& a) {
-                     const subedit::Document* const document = session.document(
-                         a.integerWithin("material", 0, std::max(0, session.materialCount() - 1)));
-                     if (document == nullptr) {
-                         throw UsageError("profile", "there is no material to pick from");
-                     }
-                     profileOf(session, a) = {
-                         "Picked",
-                         storedProfileAt(document->material(), glm::vec2(a.vector2("uv")))};
-                 });
+    commands.add(
+        "profile.pick", "Takes the profile at a place of the map: uv",
+        [&session](const Arguments& a) {
+            const subedit::Document* const document = session.document(
+                a.integerWithin("material", 0, std::max(0, session.materialCount() - 1)));
+            if (document == nullptr) {
+                throw UsageError("profile", "there is no material to pick from");
+            }
+            change(session, a,
+                   {"Picked", storedProfileAt(document->material(), glm::vec2(a.vector2("uv")))},
+                   "pick profile");
+        });
     commands.add("profile.medium", "Takes the profile of a homogeneous material, by file or name",
                  [&session](const Arguments& a) {
                      const std::string name = a.text("name");

@@ -89,6 +89,9 @@ void Session::adopt(const OpenRequest& request, OpenedScene scene) {
         notify(Notice::Kind::Warning, warning);
     }
     const bool isSameModel = mWorld != nullptr && mOpened.model == request.model;
+    if (isSameModel) { // perhaps of another size
+        scaleSurroundings(scene.world.millimetersPerUnit / mWorld->millimetersPerUnit);
+    }
     mStrokeMaterial = -1;
     mWaiting.clear();
     mMover.reset();

@@ -101,8 +101,9 @@ public:
 
     /// A scene that was read elsewhere becomes the one that is worked on.
     void adopt(const OpenRequest& request, OpenedScene scene);
-    /// The model as large as this (session_size.cpp). Materials stay as they are painted, camera
-    /// and lights go along; what was done before can no longer be undone. May take a second.
+    /// The model as large as this (session_size.cpp). Materials and selections stay as they are,
+    /// camera, lights and deformers go along; what was done before can no longer be undone. May
+    /// take a second.
     /// @throws celadon::Error; nothing changes
     void resize(double diameterMm);
 
@@ -139,8 +140,6 @@ public:
     void tell(const subedit::EditReport& report, bool isSelection);
     /// After anything that changed a document's content.
     void touchMaterial();
-    /// After an edit of one: nothing that was undone in another can be redone after it.
-    void dropUndone(int material);
     /// There are edits that can no longer be undone.
     [[nodiscard]] bool isAnyForgotten() const { return latestEdited() < 0 && editCount() > 0; }
 
@@ -186,6 +185,10 @@ public:
     /// What undo() and redo() would do; nothing: there is nothing.
     [[nodiscard]] std::optional<std::string> undoTitle() const;
     [[nodiscard]] std::optional<std::string> redoTitle() const;
+    /// After a step: nothing that was undone before it can be redone.
+    void dropUndone();
+    /// What was set so far is how the scene opens: no steps.
+    void forgetSettings() { mSettingHistory.clear(); }
     /// Of what was undone: what a session must not lose, materials and motion, or how they are
     /// looked at and painted on.
     enum class Undone { Nothing, Work, Setting };
@@ -208,6 +211,8 @@ public:
     std::vector<Notice> notices;
     /// Told of each material file before it is written: what stands there may be worth keeping.
     std::function<void(const std::filesystem::path&)> beforeWriting;
+    /// Told before the model becomes another size: what is being written should be finished.
+    std::function<void()> beforeResizing;
 
     void notify(Notice::Kind kind, const std::string& text);
     /// What cannot be done so is a warning, what failed an error.
@@ -230,6 +235,11 @@ private:
     void keepChoice(const DeformerStack& before);
     /// @return the same part as it was
     SettingPart set(const SettingPart& part);
+    LightRig setLights(const LightRig& lights);
+    void addStep(SettingPart before, const std::string& title, bool continues);
+    /// What stands about a model that becomes so many times as large goes along, so that it looks
+    /// as before.
+    void scaleSurroundings(double factor);
     /// The latest edit of all materials, or the first that was taken back. @return whether there
     /// was any
     bool undoEdit();

@@ -82,14 +82,6 @@ bool Session::redoEdit() {
     return true;
 }
 
-void Session::dropUndone(int material) {
-    for (int i = 0; i < materialCount(); ++i) {
-        if (i != material && document(i) != nullptr) {
-            document(i)->dropUndone();
-        }
-    }
-}
-
 void Session::adoptFiles(const OpenRequest& request) {
     const std::size_t count = mDocuments.size();
     mFiles.assign(count, {});

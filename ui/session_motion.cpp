@@ -21,13 +21,13 @@ bool areAtOnePlace(const Camera& a, const Camera& b) {
 
 void Session::adoptMotion(bool isSameModel) {
     mMover = std::make_unique<Motion>(*mWorld);
-    mFollowedCamera.reset();
     mSettingHistory.clear();
     const MotionState before = std::exchange(motion, {});
     motion.now.deformers = mMover->deformers();
     motion.speed = before.speed;
     motion.loops = before.loops;
     if (!isSameModel) {
+        mFollowedCamera.reset();
         mSavedDeformers = motion.now.deformers;
         for (const std::string& warning : mMover->warnings()) {
             notify(Notice::Kind::Warning, warning);

@@ -6,15 +6,20 @@
 
 namespace celadon::ui {
 
+void Session::addStep(SettingPart before, const std::string& title, bool continues) {
+    mSettingHistory.add(std::move(before), title, editCount(), continues);
+    dropUndone();
+}
+
 void Session::changeMotion(MotionSetting next, const std::string& title, bool continues) {
     SettingPart before = MotionPart{motion.now.deformers, motion.now.animation};
     setMotion(std::move(next));
-    mSettingHistory.add(std::move(before), title, editCount(), continues);
+    addStep(std::move(before), title, continues);
 }
 
 void Session::changeLights(LightRig next, const std::string& title, bool continues) {
     SettingPart before = std::exchange(rig, std::move(next));
-    mSettingHistory.add(std::move(before), title, editCount(), continues);
+    addStep(std::move(before), title, continues);
     touchPicture();
 }
 
@@ -22,7 +27,16 @@ void Session::changeProfile(bool isSecondary, NamedProfile next, const std::stri
                             bool continues) {
     NamedProfile& changed = isSecondary ? paint.secondary : paint.primary;
     SettingPart before = ProfilePart{isSecondary, std::exchange(changed, std::move(next))};
-    mSettingHistory.add(std::move(before), title, editCount(), continues);
+    addStep(std::move(before), title, continues);
+}
+
+void Session::dropUndone() {
+    mSettingHistory.dropUndone();
+    for (const auto& document : mDocuments) {
+        if (document != nullptr) {
+            document->dropUndone();
+        }
+    }
 }
 
 void Session::swapProfiles() {
@@ -34,6 +48,23 @@ void Session::turnLights(const Camera& about, double degrees) {
     Camera turned = about;
     turnAround(turned, rig, degrees);
     mSettingHistory.turnLights(about, degrees);
+}
+
+LightRig Session::setLights(const LightRig& lights) {
+    LightRig before = std::exchange(rig, lights);
+    selectedLight =
+        std::clamp(selectedLight, 0, std::max(0, static_cast<int>(rig.lights.size()) - 1));
+    followAnimation();
+    // Those that went along with the animation all the time stay where they are.
+    for (RigLight& item : rig.lights) {
+        const auto same = std::ranges::find(before.lights, item.followed, &RigLight::followed);
+        if (item.followed && same != before.lights.end()) {
+            item.light.position = same->light.position;
+            item.light.direction = same->light.direction;
+        }
+    }
+    touchPicture();
+    return before;
 }
 
 SettingPart Session::set(const SettingPart& part) {

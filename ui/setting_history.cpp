@@ -13,11 +13,15 @@ void SettingHistory::clear() {
 
 void SettingHistory::add(SettingPart before, const std::string& title, std::size_t edits,
                          bool continues) {
+    constexpr std::size_t kMostSteps = 1000;
     const bool goesOn = continues && !mDone.empty() && mUndone.empty() &&
                         mDone.back().edits == edits && mDone.back().title == title;
     mUndone.clear();
     if (!goesOn) {
         mDone.push_back({std::move(before), title, edits});
+        if (mDone.size() > kMostSteps) {
+            mDone.erase(mDone.begin());
+        }
     }
 }
 

@@ -30,6 +30,9 @@ using SettingPart = std::variant<MotionPart, LightRig, ProfilePart>;
 class SettingHistory {
 public:
     void clear();
+    /// What was taken back can no longer be done again.
+    void dropUndone() { mUndone.clear(); }
+    /// Nothing is undone when it is called. Of very many steps the oldest go.
     /// @param before    what the step has changed
     /// @param edits     of all documents, in effect now
     /// @param continues the step before goes on, as a slider in the hand: both are taken back at

@@ -452,7 +452,8 @@ void ViewportTools::cancel() {
         mDrag = Drag::None;
     }
     if (mDrag == Drag::Control || mDrag == Drag::Light) {
-        if (mHasMoved) {
+        const bool isLast = mDrag == Drag::Control || mSession.undoTitle() == "move light";
+        if (mHasMoved && isLast) {
             mSession.perform({"edit.undo"});
         }
         mDrag = Drag::None;

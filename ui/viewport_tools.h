@@ -30,8 +30,8 @@ public:
     [[nodiscard]] bool takeArrived() { return mPicker.takeArrived(); }
     [[nodiscard]] bool isDragging() const { return mDrag != Drag::None; }
 
-    /// Escape: a stroke, a dragged part of the shape or a change of the brush as if it had never
-    /// begun; clicks add no handles any more.
+    /// Escape: a stroke, a dragged part of the shape, a dragged light or a change of the brush as
+    /// if it had never begun; clicks add no handles any more.
     void cancel();
     enum class Adjust { Radius, Strength };
     /// From now on the mouse, moved sideways, changes the brush, until a button or cancel().

@@ -154,6 +154,13 @@ WeightMask Document::reached(const EditCommand& command) const {
     return mSelection;
 }
 
+void Document::takeSelection(const Document& other) {
+    if (other.mSelection.width() == mSelection.width() &&
+        other.mSelection.height() == mSelection.height()) {
+        setSelection(other.mSelection);
+    }
+}
+
 void Document::setSelection(const WeightMask& selection) {
     mSelection = selection;
     mSelectionChanged = true;

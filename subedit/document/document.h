@@ -76,6 +76,9 @@ public:
     /// What it is called in files and lists. No edit: it cannot be undone.
     void rename(const std::string& name) { mMaterial->name = name; }
 
+    /// Selects what another one selects, of a map as large. No edit: it cannot be undone.
+    void takeSelection(const Document& other);
+
     /// Does a whole command; what was undone before can no longer be redone.
     EditReport execute(const EditCommand& command, const EditProgress& progress = {});
 

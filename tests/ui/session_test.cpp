@@ -749,6 +749,43 @@ TEST_F(SessionTest, UndoFollowsProfilesAndLightsThatWentOn) {
     EXPECT_FALSE(session.redoTitle()); // what was taken back is gone
 }
 
+TEST_F(SessionTest, ANewStepOfAnyKindEndsRedoing) {
+    const auto setLight = [this] {
+        session.execute({"light.change", {{"light", 0}, {"color", {7, 1, 1}}}});
+    };
+    setLight();
+    session.execute({"edit.undo"});
+    paintStroke(); // the light's step is gone
+    session.execute({"edit.undo"});
+    EXPECT_NE(session.redoTitle(), "change light");
+    ASSERT_TRUE(session.redoTitle());
+    setLight(); // and now the stroke
+    EXPECT_FALSE(session.redoTitle());
+    EXPECT_EQ(session.undoTitle(), "change light");
+    session.execute({"edit.undo"});
+    EXPECT_EQ(session.redoTitle(), "change light");
+    EXPECT_FALSE(session.undoTitle());
+}
+
+TEST_F(SessionTest, SizeTakesSelectionsAndDeformersAlong) {
+    session.execute({"deform.add", {{"type", "inflate"}}});
+    session.execute({"deform.change", {{"deformer", 0}, {"amount", 2.0}}});
+    session.execute({"select.change", {{"what", "none"}}});
+    const Camera camera = session.camera;
+    session.execute({"scene.size", {{"diameter", 20.0}}});
+    EXPECT_TRUE(session.activeDocument()->selection().isZero());
+    EXPECT_NEAR(session.motion.now.deformers.front().amount.number(0.0), 1.0, 1e-6);
+    EXPECT_TRUE(session.undoTitle() == std::nullopt);
+    session.execute({"light.change", {{"light", 0}, {"color", {7, 1, 1}}}});
+    session.execute({"scene.size", {{"diameter", 20.0}}}); // as large as it is: nothing is lost
+    EXPECT_EQ(session.undoTitle(), "change light");
+    // The same model read again at another size: all that stands about it goes along.
+    session.execute({"file.open", {{"model", "ball"}}});
+    EXPECT_NEAR(session.world().scatteringSphere.radius, 20.0, 1e-3);
+    EXPECT_LT(glm::distance(session.camera.eye, camera.eye), 1e-3);
+    EXPECT_NEAR(session.motion.now.deformers.front().amount.number(0.0), 2.0, 1e-6);
+}
+
 TEST_F(SessionTest, SizeChangesMillimetersAndNothingElse) {
     session.execute({"light.add", {{"kind", "point"}}});
     paintStroke();

@@ -5,6 +5,8 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <cstring>
 
 namespace celadon::ui {
 
@@ -100,7 +102,11 @@ bool numberField(const char* name, double& value, const char* format, const char
     }
     tooltip(help);
     ImGui::PopID();
-    const bool isChanged = isDone && shown != value;
+    // What was typed and given up comes back as it was shown, and the same again is no change.
+    char before[64], after[64];
+    std::snprintf(before, sizeof(before), format, value);
+    std::snprintf(after, sizeof(after), format, shown);
+    const bool isChanged = isDone && std::strcmp(before, after) != 0;
     if (isChanged) {
         value = shown;
     }
