@@ -146,7 +146,12 @@ void exportGltf(Session& session, const std::filesystem::path& file) {
 }
 
 double diameterOf(const Arguments& a) {
-    return a.numberWithin("diameter", 1e-3, 1e6);
+    const double mm = a.number("diameter");
+    if (!(mm >= 1e-3 && mm <= 1e6)) {
+        throw UsageError("size", fmt::format("{:g} mm is no size for a model", mm),
+                         "choose one between 0.001 mm and 1 km");
+    }
+    return mm;
 }
 
 } // namespace

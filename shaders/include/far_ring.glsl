@@ -21,5 +21,7 @@ float farRingStart(int k) {
 // @param width  a pixel's, mm
 float isFarLightSmooth(float R_P, float width) { return smoothstep(2.5, 5.0, R_P / width); }
 
-// How alike two materials are.
-float similarity(float R_P, float other) { return exp(-8.0 * abs(R_P - other) / bounds.scattering.w); }
+// How alike two materials are: by what their ranges differ beside the object, or beside themselves where they reach beyond it.
+float similarity(float R_P, float other) {
+    return exp(-8.0 * abs(R_P - other) / max(bounds.scattering.w, max(R_P, other)));
+}

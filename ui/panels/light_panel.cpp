@@ -175,8 +175,13 @@ void drawLightPanel(Session& session, const LayoutActions& actions) {
     if (added >= 0) {
         session.perform({"light.add", {{"kind", lightKindName(static_cast<Light::Kind>(added))}}});
     }
+    // Fields of both have the same names.
+    ImGui::PushID("selected");
     drawSelected(session);
+    ImGui::PopID();
+    ImGui::PushID("environment");
     drawEnvironment(session, actions);
+    ImGui::PopID();
 }
 
 } // namespace celadon::ui

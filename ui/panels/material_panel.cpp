@@ -1,5 +1,6 @@
 #include "ui/panels/material_panel.h"
 
+#include "ui/length_text.h"
 #include "ui/material_library.h"
 #include "ui/theme.h"
 #include "ui/user_folders.h"
@@ -65,12 +66,19 @@ void drawCurrent(Session& session) {
 
 /// What a radius in mm means depends on it.
 void drawSize(Session& session) {
-    double diameterMm = 2.0 * session.world().scatteringSphere.radius;
-    if (numberField("Model across", diameterMm, "%.6g mm",
-                    "Diameter in mm of the sphere about the model. Light reaches as far as the "
-                    "material says: a smaller model is more translucent. Steps before a change of "
-                    "size can no longer be undone")) {
-        session.perform({"scene.size", {{"diameter", diameterMm}}});
+    std::string text = lengthText(2.0 * session.world().scatteringSphere.radius);
+    if (!textField(
+            "Model across", text,
+            "Diameter in mm of the sphere about the model; cm, m and in are understood. Light "
+            "reaches as far as the material says: a smaller model is more translucent. Steps "
+            "before a change of size can no longer be undone. Export glTF keeps it")) {
+        return;
+    }
+    if (const std::optional<double> mm = parseLengthMm(text)) {
+        session.perform({"scene.size", {{"diameter", *mm}}});
+    } else {
+        session.notify(Notice::Kind::Warning,
+                       "'" + text + "' is no length, such as 40, 2.5 cm or 0.3 m");
     }
 }
 

@@ -5,8 +5,7 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <cstring>
+#include <imgui_stdlib.h>
 
 namespace celadon::ui {
 
@@ -85,15 +84,15 @@ bool sliderField(const char* name, int& value, int least, int most, const char* 
     return changed;
 }
 
-bool numberField(const char* name, double& value, const char* format, const char* help) {
+bool textField(const char* name, std::string& text, const char* help) {
     static ImGuiID typedField = 0; // there is one at most
-    static double typed = 0.0;
+    static std::string typed;
     ImGui::PushID(name);
     label(name, help);
     const ImGuiID field = ImGui::GetID("##value");
-    double shown = field == typedField ? typed : value;
-    ImGui::InputDouble("##value", &shown, 0.0, 0.0, format, ImGuiInputTextFlags_AutoSelectAll);
-    const bool isDone = ImGui::IsItemDeactivatedAfterEdit();
+    std::string shown = field == typedField ? typed : text;
+    ImGui::InputText("##value", &shown, ImGuiInputTextFlags_AutoSelectAll);
+    const bool isChanged = ImGui::IsItemDeactivatedAfterEdit() && shown != text;
     if (ImGui::IsItemActive()) {
         typedField = field;
         typed = shown;
@@ -102,13 +101,8 @@ bool numberField(const char* name, double& value, const char* format, const char
     }
     tooltip(help);
     ImGui::PopID();
-    // What was typed and given up comes back as it was shown, and the same again is no change.
-    char before[64], after[64];
-    std::snprintf(before, sizeof(before), format, value);
-    std::snprintf(after, sizeof(after), format, shown);
-    const bool isChanged = isDone && std::strcmp(before, after) != 0;
     if (isChanged) {
-        value = shown;
+        text = shown;
     }
     return isChanged;
 }

@@ -16,8 +16,8 @@ bool sliderField(const char* label, float& value, float least, float most, const
                  const char* help, bool logarithmic = false);
 bool sliderField(const char* label, int& value, int least, int most, const char* format,
                  const char* help);
-/// A number to be typed; taken when the field is left.
-bool numberField(const char* label, double& value, const char* format, const char* help);
+/// Something to be typed; taken when the field is left.
+bool textField(const char* label, std::string& text, const char* help);
 bool colorField(const char* label, float rgb[3], const char* help);
 /// A row of words of which one is chosen. @return index that was clicked, -1: none
 int choiceRow(const char* id, const char* const* labels, const char* const* helps, int count,

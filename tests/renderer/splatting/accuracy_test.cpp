@@ -126,6 +126,27 @@ TEST_F(Silhouettes, LightEndsWithoutRings) {
     EXPECT_LT(errors.relativeRmse, 0.006); // discs of the strip's own area: 0.0081
 }
 
+TEST_F(Silhouettes, ObjectsFarBelowTheirRangesAreLit) {
+    // Ranges that differ by many times the object's size must not keep neighbors apart.
+    const World world =
+        resized(test::makeWorld("builtin:sphere", test::chessboardMaterial()), 0.005);
+    const Camera camera = test::defaultCamera(world, kPicture);
+    const std::array lights{test::frontLight()};
+    for (const Scheme scheme : {Scheme::Hierarchical, Scheme::Paper}) {
+        FrameSettings settings = test::smallFrame(kPicture, 128, scheme);
+        const FloatImage image =
+            test::renderFrame(context(), world, settings, camera, lights).image;
+        settings.solver = SolverKind::ImageReference;
+        const FloatImage reference =
+            test::renderFrame(context(), world, settings, camera, lights).image;
+        const ValueErrors errors = test::compareExitance(image, reference);
+        fmt::print("[ measured ] {} on 0.5 mm: relative RMSE {:.5f}, mean ratio {:.5f}\n",
+                   test::schemeWord(scheme), errors.relativeRmse, errors.meanRatio);
+        EXPECT_LT(errors.relativeRmse, 0.12);
+        EXPECT_NEAR(errors.meanRatio, 1.0, 0.02);
+    }
+}
+
 constexpr AccuracyCase kCases[] = {
     {"SphereShort", "builtin:sphere", "short", test::kSplattingShortRmse},
     {"SphereMedium", "builtin:sphere", "medium"},
