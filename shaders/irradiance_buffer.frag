@@ -1,9 +1,9 @@
 // Irradiance buffer, level 0 (Chen et al. 2012, section 4, "buffer generation"; DESIGN 3.1).
 // Flux is what the geometry intercepts: F_t H a, a the cross-section of the texel towards the light,
 // since Delta A = a / (n . l) and E = F_t H (n . l): the cosines cancel and grazing texels are safe.
-// The texel is a patch: its positions have the covariance C = s (I - n n^T), s the variance of a / cos^2,
-// a square as wide as the texel is long up the slope. A disc of the texel's own area would not reach its
-// neighbors there, and where light ends rings would show; of the trace that a strip has, it misses half.
+// The texel is a patch: its positions have the covariance C = s (I - n n^T), s = a / (12 cos^2) that of a
+// square as wide as the texel is long up the slope. A disc of the texel's own trace, a / 12 (1 + 1 / cos^2),
+// would not reach its neighbors there, and where light ends rings would show.
 //   PATCH_VARIANCE  s over that, as SplattingSettings has it
 #include "include/light.glsl"
 #include "include/fresnel.glsl"
