@@ -70,7 +70,7 @@ void drawStatusBar(const LayoutContext& context) {
             drawJob(context, *context.state.job);
         } else if (session.hasWorld()) {
             const std::string text =
-                fmt::format("{}   \xc2\xb7   {:.1f} mm across{}", session.opened().model,
+                fmt::format("{}   \xc2\xb7   {:.4g} mm across{}", session.opened().model,
                             2.0 * session.world().scatteringSphere.radius,
                             session.isModified() ? "   \xc2\xb7   not saved" : "");
             ImGui::TextDisabled("%s", text.c_str());
