@@ -1,6 +1,5 @@
 // Commands that move the camera. Lengths in mm, angles in degrees.
 #include "ui/camera_controller.h"
-#include "ui/light_rig.h"
 #include "ui/session.h"
 
 #include <glm/vec3.hpp>
@@ -22,13 +21,7 @@ void addCameraCommands(Session& session) {
         "camera.turntable",
         "Turns camera and lights together about the target, so that the object turns: degrees",
         [&session, change](const Arguments& a) {
-            const Camera before = session.camera;
-            const double degrees = a.number("degrees");
-            Camera turned = before;
-            LightRig none;
-            turnAround(turned, none, degrees);
-            change(turned);
-            session.turnLights(before, degrees);
+            change(session.turnLights(a.number("degrees")));
         });
     commands.add("camera.pan", "Shifts the view: right and up in mm",
                  [&session, change](const Arguments& a) {

@@ -39,8 +39,7 @@ void warnOfLargeModel(World& world) {
             world.warnings.push_back(fmt::format(
                 "'{}' scatters over {:.2g} mm, too little to see on a model of {:.4g} mm, and "
                 "pictures show a lattice. If it is meant to be smaller, Model across in the "
-                "Material "
-                "panel makes it so, as do --diameter and --scale",
+                "Material panel makes it so, as do --diameter and --scale",
                 material->name, radiusMm, diameterMm));
         }
     }

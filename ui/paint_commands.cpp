@@ -112,8 +112,8 @@ void Session::tell(const subedit::EditReport& report, bool isSelection) {
         const subedit::WeightMask& selection = activeDocument()->selection();
         if (selection.isZero()) {
             notify(Notice::Kind::Warning,
-                   "Nothing is selected, so nothing changes: Select all, in the "
-                   "Edit menu, ends that");
+                   "Nothing is selected, so nothing changes: Select all, in the Edit menu, ends "
+                   "that");
         } else if (selection != subedit::WeightMask::full(selection.width(), selection.height())) {
             notify(Notice::Kind::Warning,
                    "That lies outside of what is selected, so nothing changes: "

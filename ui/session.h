@@ -181,7 +181,8 @@ public:
                        bool continues = false);
     /// No steps: they go on in what is undone.
     void swapProfiles();
-    void turnLights(const Camera& about, double degrees);
+    /// About the camera's target. @return the camera turned with them
+    [[nodiscard]] Camera turnLights(double degrees);
     /// What undo() and redo() would do; nothing: there is nothing.
     [[nodiscard]] std::optional<std::string> undoTitle() const;
     [[nodiscard]] std::optional<std::string> redoTitle() const;
@@ -236,6 +237,8 @@ private:
     /// @return the same part as it was
     SettingPart set(const SettingPart& part);
     LightRig setLights(const LightRig& lights);
+    /// Sets what a step had before it, and tells the history that it was done.
+    Undone exchange(const SettingPart& part, void (SettingHistory::*confirm)(SettingPart));
     void addStep(SettingPart before, const std::string& title, bool continues);
     /// What stands about a model that becomes so many times as large goes along, so that it looks
     /// as before.

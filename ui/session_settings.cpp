@@ -44,10 +44,11 @@ void Session::swapProfiles() {
     mSettingHistory.swapProfiles();
 }
 
-void Session::turnLights(const Camera& about, double degrees) {
-    Camera turned = about;
+Camera Session::turnLights(double degrees) {
+    Camera turned = camera;
     turnAround(turned, rig, degrees);
-    mSettingHistory.turnLights(about, degrees);
+    mSettingHistory.turnLights(camera, degrees);
+    return turned;
 }
 
 LightRig Session::setLights(const LightRig& lights) {
@@ -105,24 +106,26 @@ std::optional<std::string> Session::redoTitle() const {
                          : std::nullopt;
 }
 
+Session::Undone Session::exchange(const SettingPart& part,
+                                  void (SettingHistory::*confirm)(SettingPart)) {
+    SettingPart before = set(SettingPart(part));
+    const bool isWork = std::holds_alternative<MotionPart>(before);
+    (mSettingHistory.*confirm)(std::move(before));
+    return isWork ? Undone::Work : Undone::Setting;
+}
+
 Session::Undone Session::undo() {
     if (mSettingHistory.undoTitle(editCount()) == nullptr) {
         return undoEdit() ? Undone::Work : Undone::Nothing;
     }
-    SettingPart before = set(SettingPart(mSettingHistory.undone()));
-    const bool isWork = std::holds_alternative<MotionPart>(before);
-    mSettingHistory.confirmUndo(std::move(before));
-    return isWork ? Undone::Work : Undone::Setting;
+    return exchange(mSettingHistory.undone(), &SettingHistory::confirmUndo);
 }
 
 Session::Undone Session::redo() {
     if (mSettingHistory.redoTitle(editCount()) == nullptr) {
         return redoEdit() ? Undone::Work : Undone::Nothing;
     }
-    SettingPart before = set(SettingPart(mSettingHistory.redone()));
-    const bool isWork = std::holds_alternative<MotionPart>(before);
-    mSettingHistory.confirmRedo(std::move(before));
-    return isWork ? Undone::Work : Undone::Setting;
+    return exchange(mSettingHistory.redone(), &SettingHistory::confirmRedo);
 }
 
 } // namespace celadon::ui

@@ -89,6 +89,14 @@ protected:
 
     const subedit::MaterialMap& map() { return session.activeDocument()->material(); }
 
+    /// The first light's direction as the camera has it.
+    glm::dvec3 lightSeen() {
+        const CameraFrame frame = cameraFrame(session.camera);
+        const glm::dvec3 d = session.rig.lights.front().light.direction;
+        return glm::dvec3(glm::dot(d, frame.right), glm::dot(d, frame.up),
+                          glm::dot(d, frame.forward));
+    }
+
     Session session;
     std::vector<Command> recorded;
 };
@@ -652,16 +660,10 @@ TEST_F(SessionTest, ExposureFitsTheLightsThatAModelBrings) {
 }
 
 TEST_F(SessionTest, TurntableTurnsLightsWithTheCamera) {
-    const auto seen = [this] { // the light's direction as the camera has it
-        const CameraFrame frame = cameraFrame(session.camera);
-        const glm::dvec3 d = session.rig.lights.front().light.direction;
-        return glm::dvec3(glm::dot(d, frame.right), glm::dot(d, frame.up),
-                          glm::dot(d, frame.forward));
-    };
-    const glm::dvec3 before = seen();
+    const glm::dvec3 before = lightSeen();
     const glm::dvec3 eye = session.camera.eye;
     session.execute({"camera.turntable", {{"degrees", 77.0}}});
-    EXPECT_LT(glm::distance(before, seen()), 1e-9);
+    EXPECT_LT(glm::distance(before, lightSeen()), 1e-9);
     EXPECT_GT(glm::distance(eye, session.camera.eye), 1.0);
     session.execute({"camera.turntable", {{"degrees", -77.0}}});
     EXPECT_LT(glm::distance(eye, session.camera.eye), 1e-9);
@@ -731,18 +733,12 @@ TEST_F(SessionTest, UndoFollowsProfilesAndLightsThatWentOn) {
     EXPECT_EQ(knot(session.paint.primary), other);
 
     session.execute({"light.preset", {{"name", "studio"}}});
-    const auto seen = [this] { // the light's direction as the camera has it
-        const CameraFrame frame = cameraFrame(session.camera);
-        const glm::dvec3 d = session.rig.lights.front().light.direction;
-        return glm::dvec3(glm::dot(d, frame.right), glm::dot(d, frame.up),
-                          glm::dot(d, frame.forward));
-    };
-    const glm::dvec3 lit = seen();
+    const glm::dvec3 lit = lightSeen();
     session.execute({"light.remove", {{"light", 0}}});
     session.selectedLight = 1;
     session.execute({"camera.turntable", {{"degrees", 77.0}}});
     session.execute({"edit.undo"});
-    EXPECT_LT(glm::distance(lit, seen()), 1e-9);
+    EXPECT_LT(glm::distance(lit, lightSeen()), 1e-9);
     session.execute({"edit.undo"}); // the preset: one light again
     EXPECT_LT(session.selectedLight, static_cast<int>(session.rig.lights.size()));
     session.execute({"light.remove", {{"light", 0}}});
