@@ -197,8 +197,7 @@ void GpuMaterials::update(int material, const subedit::MaterialMap& map,
                           const subedit::TexelRect& rect) {
     const TexelTables tables =
         makeTexelTables(map, rect, mEnergy, mMeanLogProfiles[static_cast<std::size_t>(material)]);
-    const glm::ivec3 corner =
-        mSlots.origins[static_cast<std::size_t>(material)] + glm::ivec3(kBorder, kBorder, 0);
+    const glm::ivec3 corner = cornerOf(material);
     const glm::ivec3 offset = corner + glm::ivec3(rect.x, rect.y, 0);
     const glm::ivec2 size(rect.width, rect.height);
     const int knots = map.knots();
@@ -217,6 +216,16 @@ void GpuMaterials::update(int material, const subedit::MaterialMap& map,
     const glm::ivec2 mapSize(map.width, map.height);
     repeatAtBorder(mTables, corner, mapSize, knots + kExtraLayers, rect);
     repeatAtBorder(mFarEnergy, corner, mapSize, knots, rect);
+}
+
+glm::ivec3 GpuMaterials::cornerOf(int material) const {
+    return mSlots.origins[static_cast<std::size_t>(material)] + glm::ivec3(kBorder, kBorder, 0);
+}
+
+void GpuMaterials::readFarEnergy(int material, int knot, const subedit::TexelRect& rect,
+                                 std::span<std::uint16_t> halves) const {
+    mFarEnergy.readRegion(0, cornerOf(material) + glm::ivec3(rect.x, rect.y, knot),
+                          glm::ivec3(rect.width, rect.height, 1), halves);
 }
 
 void GpuMaterials::bind() const {

@@ -50,10 +50,17 @@ public:
     [[nodiscard]] float shortRadiusMm() const { return mShortRadiusMm; }
     /// Knots that node profiles share.
     [[nodiscard]] const gather::Knots& commonKnots() const { return mCommonKnots; }
+    /// ln of the far energy at a knot: half-precision bits of a rectangle of a material's map,
+    /// [height][width][4].
+    void readFarEnergy(int material, int knot, const subedit::TexelRect& rect,
+                       std::span<std::uint16_t> halves) const;
     /// Rbar(T) (eq. 14).
     [[nodiscard]] float minimalRadius(float pixelsPerRadius, int material = 0) const;
 
 private:
+    /// Of the map's texel (0, 0) and its first layer in the arrays.
+    [[nodiscard]] glm::ivec3 cornerOf(int material) const;
+
     gl::Buffer mBlock;
     MaterialSlots mSlots;
     gl::Texture mTables; ///< [layer][row][column][4]: ln P of the knots, radii, kept energy, lobe

@@ -1,11 +1,15 @@
 #include "renderer/gather/gather_materials.h"
 
 #include "subedit/fast_exp.h"
+#include "subedit/map/repeat_tap.h"
 #include "subedit/multiversion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <numbers>
+#include <utility>
 
 namespace celadon {
 
@@ -22,6 +26,69 @@ void quantize(const float* logP, std::size_t count, float offset, float perStep,
         codes[i] = static_cast<std::uint16_t>(
             static_cast<int>(code < 0.0f ? 0.0f : (code > kLargestCode ? kLargestCode : code)));
     }
+}
+
+/// Texels of a map and their weights.
+struct WeighedTexels {
+    std::array<const float*, 4> logP;
+    std::array<float, 4> weights; ///< per step of a code
+};
+
+using subedit::Eight;
+/// Of two neighboring knots: R, G, B and nothing of each. In a load of eight numbers they begin
+/// with the first, or end with the last.
+constexpr std::int32_t kNothing = 0;
+using EightPlaces = std::int32_t __attribute__((vector_size(32)));
+constexpr EightPlaces kAtFirst{0, 1, 2, kNothing, 3, 4, 5, kNothing};
+constexpr EightPlaces kAtLast{2, 3, 4, kNothing, 5, 6, 7, kNothing};
+
+[[gnu::always_inline]] inline void blend(const WeighedTexels& texels, std::size_t at, Eight& sum) {
+    sum = Eight{};
+    for (std::size_t i = 0; i < 4; ++i) {
+        Eight values;
+        std::memcpy(&values, texels.logP[i] + at, sizeof(values));
+        sum += values * texels.weights[i];
+    }
+}
+
+/// @param means  of two knots, where `places` says
+[[gnu::always_inline]] inline void storeCodes(const Eight& means, const EightPlaces& places,
+                                              float zero, std::uint16_t* codes) {
+    constexpr EightPlaces kColors{-1, -1, -1, 0, -1, -1, -1, 0};
+    Eight code = CELADON_CHOOSE(means, places) + zero;
+    code = code < 0.0f ? Eight{} : code;
+    code = code > kLargestCode ? Eight{} + kLargestCode : code;
+    using EightCodes = std::uint16_t __attribute__((vector_size(16)));
+    const auto packed =
+        __builtin_convertvector(__builtin_convertvector(code, EightPlaces) & kColors, EightCodes);
+    std::memcpy(codes, &packed, sizeof(packed));
+}
+
+/// [knots][3] of texels -> [knots][kKnotCodes] of their mean. @param knots at least 2
+/// @param zero what a mean of 0 comes to, rounding included
+CELADON_MULTIVERSION
+void encodeMean(const WeighedTexels& texels, std::size_t knots, float zero, std::uint16_t* codes) {
+    Eight means;
+    if (knots == 2) { // less than what is loaded at once
+        std::array<std::array<float, 8>, 4> values{};
+        WeighedTexels copies = texels;
+        for (std::size_t i = 0; i < 4; ++i) {
+            std::copy_n(texels.logP[i], 6, values[i].data());
+            copies.logP[i] = values[i].data();
+        }
+        blend(copies, 0, means);
+        storeCodes(means, kAtFirst, zero, codes);
+        return;
+    }
+    std::size_t knot = 0;
+    for (; 3 * knot + 8 <= 3 * knots; knot += 2) {
+        blend(texels, 3 * knot, means);
+        storeCodes(means, kAtFirst, zero, codes + gather::kKnotCodes * knot);
+    }
+    // Nothing is read behind the last one: some were done already.
+    knot = knots - 2;
+    blend(texels, 3 * knot - 2, means);
+    storeCodes(means, kAtLast, zero, codes + gather::kKnotCodes * knot);
 }
 
 CELADON_MULTIVERSION
@@ -100,18 +167,22 @@ void GatherMaterials::encodeLogs(const float* logP, std::size_t count, std::uint
 }
 
 void GatherMaterials::encode(int material, glm::vec2 uv, std::uint16_t* codes) const {
-    constexpr std::size_t kMostValues = 3 * (subedit::kMaxSegments + 1);
     const subedit::MaterialMap& own = map(material);
-    float logP[kMostValues];
-    std::uint16_t packed[kMostValues];
-    own.sampleLogProfile(uv, logP);
-    const std::size_t count = 3 * static_cast<std::size_t>(own.knots());
-    encodeLogs(logP, count, packed);
-    for (std::size_t i = 0; i < count; i += 3) {
-        std::copy_n(packed + i, 3, codes);
-        codes[3] = 0; // the floor
-        codes += gather::kKnotCodes;
+    const subedit::RepeatTap x(uv.x, own.width);
+    const subedit::RepeatTap y(uv.y, own.height);
+    const auto knots = static_cast<std::size_t>(own.knots());
+    const float perStep = 1.0f / mScale.step;
+    WeighedTexels texels{};
+    std::size_t i = 0;
+    for (const auto& [row, high] :
+         {std::pair(y.first, 1.0f - y.weight), std::pair(y.second, y.weight)}) {
+        for (const auto& [column, wide] :
+             {std::pair(x.first, 1.0f - x.weight), std::pair(x.second, x.weight)}) {
+            texels.logP[i] = own.logProfile.data() + own.index(column, row, 0);
+            texels.weights[i++] = wide * high * perStep;
+        }
     }
+    encodeMean(texels, knots, 0.5f - mScale.offset * perStep, codes);
 }
 
 void GatherMaterials::decodeRoots(int material, const std::uint16_t* codes, float* roots) const {

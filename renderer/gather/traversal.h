@@ -1,6 +1,7 @@
 #pragma once
 
 #include "renderer/gather/candidate_list.h"
+#include "renderer/gather/four.h"
 #include "renderer/gather/tile_gather.h"
 
 #include <glm/gtc/type_ptr.hpp>
@@ -44,19 +45,7 @@ public:
     }
 
 private:
-    /// One number of each of four siblings. GCC and Clang alike; any x86-64 has such registers.
-    using Four = float __attribute__((vector_size(16)));
-    using FourMasks = std::int32_t __attribute__((vector_size(16)));
     static constexpr float kEverywhere = CandidateList::kEverywhere;
-
-    static Four four(float v) { return Four{v, v, v, v}; }
-    static Four load(const float* p) {
-        Four v;
-        std::memcpy(&v, p, sizeof(v));
-        return v;
-    }
-    static Four larger(Four a, Four b) { return a > b ? a : b; }
-    static Four square(Four v) { return v * v; }
 
     /// What siblings need of their parent.
     struct Parent {
@@ -93,8 +82,8 @@ private:
     /// What counts of up to four siblings, and of what is below them.
     void visitSiblings(std::size_t level, std::uint32_t first, int count, const Parent& parent) {
         const SampleTree::NodeBall* const nodes = mTree.levels()[level].balls.data() + first;
-        const Four a = load(&nodes[0].x), b = load(&nodes[1].x);
-        const Four c = load(&nodes[2].x), d = load(&nodes[3].x);
+        const Four a = loadFour(&nodes[0].x), b = loadFour(&nodes[1].x);
+        const Four c = loadFour(&nodes[2].x), d = loadFour(&nodes[3].x);
         const Four abXY = __builtin_shufflevector(a, b, 0, 4, 1, 5);
         const Four cdXY = __builtin_shufflevector(c, d, 0, 4, 1, 5);
         const Four abZBall = __builtin_shufflevector(a, b, 2, 6, 3, 7);
@@ -121,24 +110,24 @@ private:
         const Four innermost =
             larger(gather::kRingLow * ringRadii(mLevel, depth - extent) - extent, none);
         const Four outermost = gather::kRingHigh * nextRings(depth + extent) + extent;
-        const FourMasks isReached = (nearest < square(mRangeMm + extent)) &
+        const FourInts isReached = (nearest < square(mRangeMm + extent)) &
                                     (square(innermost) <= farthest) &
                                     (nearest <= square(outermost));
         const Four start = ringRadii(mLevel, depth);
         const Four end = nextRings(depth);
-        const FourMasks isUsed = ball < SampleTree::kNeverUsed;
+        const FourInts isUsed = ball < SampleTree::kNeverUsed;
         const Four usedBall = isUsed ? ball : none;
-        FourMasks counts = isReached & isUsed & (nearest < range * range) &
+        FourInts counts = isReached & isUsed & (nearest < range * range) &
                            (farthest >= square(usedBall)) & (start < mRangeMm) &
                            (farthest > square(gather::kRingLow * start)) &
                            (nearest < square(gather::kRingHigh * end));
         const Four fadeEnd = (1.0f + mSettings.fade) * usedBall;
-        const FourMasks isFading = nearest < square(fadeEnd);
-        const FourMasks descends = isReached & (ball > 0.0f) & (~isUsed | isFading);
+        const FourInts isFading = nearest < square(fadeEnd);
+        const FourInts descends = isReached & (ball > 0.0f) & (~isUsed | isFading);
         std::array<std::int32_t, 4> countsOf, descendsTo, insides;
         std::memcpy(countsOf.data(), &counts, sizeof(counts));
         std::memcpy(descendsTo.data(), &descends, sizeof(descends));
-        const FourMasks isInside = farthest >= square(usedBall);
+        const FourInts isInside = farthest >= square(usedBall);
         std::memcpy(insides.data(), &isInside, sizeof(isInside));
         for (int i = 0; i < count; ++i) {
             if (descendsTo[static_cast<std::size_t>(i)] != 0) {

@@ -265,6 +265,13 @@ void Texture::readRegion(int level, glm::ivec3 offset, glm::ivec3 extent,
     readBytes(level, offset, extent, GL_FLOAT, texels.data(), texels.size(), texels.size_bytes());
 }
 
+void Texture::readRegion(int level, glm::ivec3 offset, glm::ivec3 extent,
+                         std::span<std::uint16_t> texels) const {
+    CELADON_ASSERT(pixelFormat(mFormat).nativeType == GL_HALF_FLOAT);
+    readBytes(level, offset, extent, GL_HALF_FLOAT, texels.data(), texels.size(),
+              texels.size_bytes());
+}
+
 std::vector<float> Texture::readLevel(int level) const {
     return readRegion(level, glm::ivec3(0), size(level));
 }

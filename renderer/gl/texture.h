@@ -99,6 +99,9 @@ public:
     [[nodiscard]] std::vector<float> readRegion(int level, glm::ivec3 offset,
                                                 glm::ivec3 extent) const;
     void readRegion(int level, glm::ivec3 offset, glm::ivec3 extent, std::span<float> texels) const;
+    /// Of a half format, its bits.
+    void readRegion(int level, glm::ivec3 offset, glm::ivec3 extent,
+                    std::span<std::uint16_t> texels) const;
 
     void clear(int level, glm::vec4 value); ///< float, normalized and depth (x) formats
     void clear(int level, glm::uvec4 value);

@@ -104,10 +104,13 @@ CpuBackend::CpuBackend(const gl::ShaderLibrary& shaders, std::span<const Materia
       mMaterials(materials),
       mExitance(gl::Texture::make2d("exitance", GL_RGBA32F, view.paddedSize(), view.levels())),
       mView(static_cast<std::size_t>(view.levels())),
+      mTiles(mView.size()),
+      mFarEnergies(materials),
       mLitPart(0, 0, view.paddedSize()),
       mLights(keptLights(settings.irradianceSize)) {}
 
 void CpuBackend::materialChanged(const MaterialChange& change) {
+    mFarEnergies.changed(change.material, change.rect);
     const bool hasNewCodes = mMaterials.admit(change.largestLogP);
     for (LightState& state : mLights) {
         addChange(state.changes, {change.material, change.rect});
@@ -125,17 +128,13 @@ void CpuBackend::begin(const SolveInput& input) {
     }
     if (mViewDrawn != input.view.drawn()) {
         mViewDrawn = input.view.drawn();
-        mViewPart = input.view.bounds();
-        for (int k = 0; k < input.view.levels(); ++k) {
-            ViewLevel& level = mView[static_cast<std::size_t>(k)];
-            level.part = partOfLevel(unite(mLitPart, mViewPart), k, mExitance.size2d(k));
-            read(input.view.positions(), k, level.part, level.positions);
-            read(input.view.surfaces(), k, level.part, level.surfaces);
-            level.tiles = PixelTiles(level.texels(nullptr), k);
-        }
+        readView(input.view, input.gpuWorld.readBounds().scattering.w);
         for (LightState& state : mLights) {
             state.isCurrent.clear();
         }
+    } else {
+        read(input.view.surfaces(), 0, mView[0].part, mView[0].surfaces);
+        copyRadiiUp(mView);
     }
     mGather.hierarchical = mSettings.scheme == Scheme::Hierarchical;
     mGather.multiresolution = mSettings.multiresolution;
@@ -147,6 +146,21 @@ void CpuBackend::begin(const SolveInput& input) {
     mGather.minimalRadius = [&materials = input.materials](float pixelsPerRadius, int material) {
         return materials.minimalRadius(pixelsPerRadius, material);
     };
+}
+
+void CpuBackend::readView(const SplattingBuffer& view, float objectRadius) {
+    mViewPart = view.bounds();
+    for (std::size_t k = 0; k < mView.size(); ++k) {
+        const auto level = static_cast<int>(k);
+        mView[k].part = partOfLevel(unite(mLitPart, mViewPart), level, mExitance.size2d(level));
+    }
+    read(view.positions(), 0, mView[0].part, mView[0].positions);
+    read(view.normals(), 0, mView[0].part, mView[0].normals);
+    read(view.surfaces(), 0, mView[0].part, mView[0].surfaces);
+    makeCoarserLevels(mView, float(SplattingBuffer::kClusterDepth) * 2.0f * objectRadius);
+    for (std::size_t k = 0; k < mView.size(); ++k) {
+        mTiles[k] = PixelTiles(mView[k].texels(nullptr), static_cast<int>(k));
+    }
 }
 
 LightTexels CpuBackend::lightTexels(const LightState& state) const {
@@ -278,17 +292,48 @@ void CpuBackend::gather(LightState& state, const Since& since, const SolveInput&
             change.emplace(GatherChange{*treeChange, since.changed});
         }
         mGatheredPairs +=
-            gatherLevel(state.tree, mMaterials, texels, level.tiles, number,
-                        static_cast<int>(levels), mGather, change ? &*change : nullptr);
+            gatherLevel(state.tree, mMaterials, texels, mTiles[k], number, static_cast<int>(levels),
+                        mGather, change ? &*change : nullptr);
         state.isCurrent[k] = true;
         addTo(level.exitance, exitance);
     }
 }
 
-void CpuBackend::finish() {
-    for (std::size_t k = 0; k < mView.size(); ++k) {
-        ViewLevel& level = mView[k];
+void CpuBackend::accumulate(const SolveInput& input) {
+    const glm::vec4 object = input.gpuWorld.readBounds().scattering;
+    const PixelWidth& width = input.camera.pixelWidth;
+    // Rings of the mean material at mean depth, as far_ring.glsl has them.
+    const CameraFrame& frame = input.camera.frame;
+    const double depth =
+        std::max(glm::dot(glm::dvec3(object) - input.camera.eye, frame.forward), 1e-3);
+    std::vector<float> starts(1, 0.0f);
+    for (std::size_t k = 1; k < mView.size(); ++k) {
+        const auto pixel = float((depth * width.scale + width.offset) * double(1 << k));
+        const float R_P = input.materials.meanRadiusMm();
+        starts.push_back(mGather.hierarchical ? pixel / mGather.pixelAngle
+                                              : R_P * input.materials.minimalRadius(R_P / pixel));
+    }
+    mFarEnergies.setRadii(starts, [&](int material, int knot, const subedit::TexelRect& rect,
+                                      std::span<std::uint16_t> halves) {
+        input.materials.readFarEnergy(material, knot, rect, halves);
+    });
+    AccumulationSettings settings;
+    settings.sharpens = mGather.hierarchical;
+    settings.pixelScale = mGather.pixelScale;
+    settings.pixelOffset = mGather.pixelOffset;
+    settings.objectRadius = object.w;
+    mAccumulation.accumulate(mView, mFarEnergies, settings);
+}
+
+void CpuBackend::finish(const SolveInput& input) {
+    for (ViewLevel& level : mView) {
         level.exitance.resize(level.positions.size(), 0.0f); // no light view was in use
+    }
+    if (mView.size() > 1) {
+        accumulate(input);
+    }
+    for (std::size_t k = 0; k < mView.size(); ++k) {
+        const ViewLevel& level = mView[k];
         mExitance.uploadRegion(static_cast<int>(k), glm::ivec3(level.part.x, level.part.y, 0),
                                glm::ivec3(level.part.z, level.part.w, 1),
                                std::span<const float>(level.exitance));

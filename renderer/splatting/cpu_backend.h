@@ -1,8 +1,12 @@
 #pragma once
 
+#include "renderer/gather/far_energies.h"
 #include "renderer/gather/gather_materials.h"
+#include "renderer/gather/level_accumulation.h"
+#include "renderer/gather/pixel_tiles.h"
 #include "renderer/gather/sample_tree.h"
 #include "renderer/gather/tile_gather.h"
+#include "renderer/gather/view_level.h"
 #include "renderer/splatting/irradiance_buffer.h"
 #include "renderer/splatting/splat_backend.h"
 #include "renderer/splatting/splatting_settings.h"
@@ -12,7 +16,8 @@
 #include <vector>
 
 /// For software drivers, where a read-back is a copy and the processor is the renderer anyway: the
-/// buffers' level 0 is read, and tiles of pixels gather from a tree of samples on all cores.
+/// buffers' level 0 is read, tiles of pixels gather from a tree of samples on all cores, and only
+/// the sums go back.
 ///
 /// While the view stays as it is, as under a brush, tiles that no change of a light's samples or of
 /// their own texels reaches keep what they had.
@@ -26,7 +31,7 @@ public:
     void begin(const SolveInput& input) override;
     void add(const SolveInput& input, const LightViews& lightViews, int view,
              gl::StageTimer& timer) override;
-    void finish() override;
+    void finish(const SolveInput& input) override;
     void materialChanged(const MaterialChange& change) override;
     [[nodiscard]] gl::Texture& exitance() override { return mExitance; }
     void count(FrameStats& statistics) override;
@@ -64,22 +69,18 @@ private:
     };
     void gather(LightState& state, const Since& since, const SolveInput& input,
                 gl::StageTimer& timer);
+    void readView(const SplattingBuffer& view, float objectRadius);
+    void accumulate(const SolveInput& input);
 
     SplattingSettings mSettings;
     IrradianceBuffer mIrradiance; ///< level 0 only
     GatherMaterials mMaterials;
     GatherSettings mGather;
     gl::Texture mExitance;
-    struct ViewLevel {
-        glm::ivec4 part; ///< x, y, width, height: of this is the rest
-        std::vector<float> positions, surfaces, exitance;
-        PixelTiles tiles;
-
-        [[nodiscard]] ViewTexels texels(float* sums) const {
-            return {{part.z, part.w}, positions.data(), surfaces.data(), sums};
-        }
-    };
     std::vector<ViewLevel> mView;
+    std::vector<PixelTiles> mTiles; ///< of each level
+    FarEnergies mFarEnergies;
+    LevelAccumulation mAccumulation;
     std::uint64_t mViewDrawn = 0;    ///< SplattingBuffer::drawn() of mView
     glm::ivec4 mViewPart{0};         ///< SplattingBuffer::bounds() then
     glm::ivec4 mLitPart;             ///< of level 0: elsewhere mExitance is 0

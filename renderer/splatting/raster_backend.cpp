@@ -6,9 +6,12 @@ namespace celadon {
 
 RasterBackend::RasterBackend(const gl::ShaderLibrary& shaders, const GpuMaterials& materials,
                              const SplattingBuffer& view, const SplattingSettings& settings)
-    : mSamples(shaders, materials, settings), mSplat(shaders, materials, view, settings.scheme) {}
+    : mSamples(shaders, materials, settings),
+      mSplat(shaders, materials, view, settings.scheme),
+      mAccumulation(shaders, materials.count(), settings.scheme, view) {}
 
 void RasterBackend::begin(const SolveInput& input) {
+    input.view.buildMips();
     input.view.buildTileRanges();
     mSplat.clear();
 }
@@ -30,6 +33,10 @@ void RasterBackend::add(const SolveInput& input, const LightViews& lightViews, i
     if (mObserver && lightViews.isUsed(view)) {
         mObserver();
     }
+}
+
+void RasterBackend::finish(const SolveInput& input) {
+    mAccumulation.accumulate(exitance(), input.view, input.materials);
 }
 
 } // namespace celadon

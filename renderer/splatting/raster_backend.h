@@ -1,5 +1,6 @@
 #pragma once
 
+#include "renderer/splatting/accumulation.h"
 #include "renderer/splatting/gpu_samples.h"
 #include "renderer/splatting/raster_splat.h"
 #include "renderer/splatting/splat_backend.h"
@@ -19,6 +20,7 @@ public:
     void begin(const SolveInput& input) override;
     void add(const SolveInput& input, const LightViews& lightViews, int view,
              gl::StageTimer& timer) override;
+    void finish(const SolveInput& input) override;
     [[nodiscard]] gl::Texture& exitance() override { return mSplat.exitance(); }
     void count(FrameStats& statistics) override { mSamples.count(statistics); }
 
@@ -32,6 +34,7 @@ public:
 private:
     GpuSamples mSamples;
     RasterSplat mSplat;
+    Accumulation mAccumulation;
     std::function<void()> mObserver;
 };
 

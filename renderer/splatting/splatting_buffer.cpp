@@ -114,17 +114,22 @@ void SplattingBuffer::dispatchTouched(const gl::Program& program, int level,
 void SplattingBuffer::refreshRadii() {
     const gl::DebugGroup group("surface radii");
     mRadii.use();
-    for (int level = 0; level < mLevels; ++level) {
+    const int built = mMipsOf == mDrawn ? mLevels : 1;
+    for (int level = 0; level < built; ++level) {
         mTargets[2].bindImage(0, level, GL_READ_WRITE);
         dispatchCovered(mRadii, level);
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-void SplattingBuffer::buildMips(double clusterDepth) {
+void SplattingBuffer::buildMips() {
+    if (mMipsOf == mDrawn) {
+        return;
+    }
+    mMipsOf = mDrawn;
     const gl::DebugGroup group("median mips");
     mMip.use();
-    mMip.set(1, static_cast<float>(clusterDepth));
+    mMip.set(1, static_cast<float>(kClusterDepth));
     for (int level = 1; level < mLevels; ++level) {
         mMip.set(0, level - 1);
         for (int i = 0; i < kGeometryTargets; ++i) {

@@ -31,7 +31,7 @@ public:
                                std::span<const glm::vec2> morePlaces = {});
     /// The frame block of the last draw() and the bounds, as draw() leaves them.
     void bind(const GpuWorld& world) const;
-    /// After profiles were edited, and nothing else changed: R_P, in every level there is.
+    /// After profiles were edited, and nothing else changed: R_P, in every level that was built.
     void refreshRadii();
     /// Another number after each draw().
     [[nodiscard]] std::uint64_t drawn() const { return mDrawn; }
@@ -44,9 +44,10 @@ public:
     [[nodiscard]] glm::ivec4 bounds() const { return mBounds; }
     /// These pixels; null where the driver draws.
     [[nodiscard]] const CoveredTiles* coveredTiles() const { return mTiles ? &*mTiles : nullptr; }
-    /// Levels 1 and up. @param clusterDepth depths that count as one surface, in bounding sphere
-    /// diameters
-    void buildMips(double clusterDepth);
+    /// Levels 1 and up of positions, normals and surfaces, unless they are of the last draw().
+    void buildMips();
+    /// Depths that count as one surface in them, in bounding sphere diameters.
+    static constexpr double kClusterDepth = 0.01;
     /// For backends that draw splats, see tileRanges().
     void buildTileRanges();
 
@@ -82,6 +83,7 @@ private:
     std::vector<TouchedTiles> mMipTiles;
     gl::Program mRadii, mMip, mTileRange;
     std::uint64_t mDrawn = 0;
+    std::uint64_t mMipsOf = 0; ///< the drawing that has them
 };
 
 /// The frame block of a view. Frame and padded size in pixels.

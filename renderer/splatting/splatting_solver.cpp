@@ -13,12 +13,6 @@
 
 namespace celadon {
 
-namespace {
-
-constexpr double kClusterDepth = 0.01; ///< of R_w: depths of one surface in a median cluster
-
-} // namespace
-
 SplatBackendKind resolveBackend(SplatBackendKind kind, const gl::Context& context) {
     return kind == SplatBackendKind::Auto && context.isSoftware() ? SplatBackendKind::Cpu : kind;
 }
@@ -43,7 +37,6 @@ SplattingSolver::SplattingSolver(const gl::ShaderLibrary& shaders,
       mView(view),
       mSettings(settings),
       mLightViews(shaders, LightViews::Target::Scattering, settings.irradianceSize),
-      mAccumulation(shaders, materials.count(), settings.scheme, view),
       mSolveBlock("solve", sizeof(blocks::SolveBlock), gl::BufferUse::Update) {
     if (settings.scheme == Scheme::Hierarchical) {
         mSettings.energy = 1.0; // nothing is cut, so nothing is given back
@@ -138,10 +131,6 @@ void SplattingSolver::solveOnce(const SolveInput& input, gl::StageTimer& timer) 
     writeSolveBlock(input);
     {
         const auto scope = timer.measure("splattingBuffer");
-        if (mMipsOf != input.view.drawn()) {
-            input.view.buildMips(kClusterDepth);
-            mMipsOf = input.view.drawn();
-        }
         mBackend->begin(input);
     }
     mLightViews.update(input.lights, input.gpuWorld);
@@ -157,11 +146,10 @@ void SplattingSolver::solveOnce(const SolveInput& input, gl::StageTimer& timer) 
         }
     }
     const auto scope = timer.measure("accumulation");
-    mBackend->finish();
+    mBackend->finish(input);
     if (mCollect) {
         countPairs();
     }
-    mAccumulation.accumulate(mBackend->exitance(), input.view, input.materials);
 }
 
 void SplattingSolver::materialChanged(const MaterialChange& change) {

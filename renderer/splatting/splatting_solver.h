@@ -2,7 +2,6 @@
 
 #include "renderer/exitance_solver.h"
 #include "renderer/gl/context.h"
-#include "renderer/splatting/accumulation.h"
 #include "renderer/splatting/cpu_backend.h"
 #include "renderer/splatting/light_views.h"
 #include "renderer/splatting/raster_backend.h"
@@ -69,9 +68,7 @@ private:
     SplattingSettings mSettings;
     std::unique_ptr<SplatBackend> mBackend; ///< null while Auto
     LightViews mLightViews;
-    Accumulation mAccumulation;
     gl::Buffer mSolveBlock;
-    std::uint64_t mMipsOf = 0; ///< SplattingBuffer::drawn() that has them
     bool mCollect = false;
     FrameStats mStatistics;
 };

@@ -7,9 +7,12 @@ namespace celadon {
 TiledBackend::TiledBackend(const gl::ShaderLibrary& shaders, std::span<const MaterialPointer> maps,
                            const GpuMaterials& materials, const SplattingBuffer& view,
                            const SplattingSettings& settings)
-    : mSamples(shaders, materials, settings), mGather(shaders, maps, materials, view, settings) {}
+    : mSamples(shaders, materials, settings),
+      mGather(shaders, maps, materials, view, settings),
+      mAccumulation(shaders, materials.count(), settings.scheme, view) {}
 
-void TiledBackend::begin(const SolveInput&) {
+void TiledBackend::begin(const SolveInput& input) {
+    input.view.buildMips();
     mGather.clear();
 }
 
@@ -26,6 +29,10 @@ void TiledBackend::add(const SolveInput& input, const LightViews&, int, gl::Stag
         const auto scope = timer.measure("splatting " + std::to_string(k));
         mGather.gather(k, input.view, mSamples, input.materials);
     }
+}
+
+void TiledBackend::finish(const SolveInput& input) {
+    mAccumulation.accumulate(exitance(), input.view, input.materials);
 }
 
 } // namespace celadon

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "renderer/splatting/accumulation.h"
 #include "renderer/splatting/gpu_samples.h"
 #include "renderer/splatting/splat_backend.h"
 #include "renderer/splatting/tile_gather.h"
@@ -16,6 +17,7 @@ public:
     void begin(const SolveInput& input) override;
     void add(const SolveInput& input, const LightViews& lightViews, int view,
              gl::StageTimer& timer) override;
+    void finish(const SolveInput& input) override;
     [[nodiscard]] gl::Texture& exitance() override { return mGather.exitance(); }
     void count(FrameStats& statistics) override { mSamples.count(statistics); }
 
@@ -24,6 +26,7 @@ public:
 private:
     GpuSamples mSamples;
     TileGather mGather;
+    Accumulation mAccumulation;
 };
 
 } // namespace celadon

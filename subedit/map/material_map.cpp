@@ -1,25 +1,11 @@
 #include "subedit/map/material_map.h"
 
+#include "subedit/map/repeat_tap.h"
 #include "subedit/multiversion.h"
-
-#include <cmath>
 
 namespace celadon::subedit {
 
 namespace {
-
-struct LinearTap {
-    int first, second;
-    float weight; ///< of `second`
-};
-
-/// The two texels around coordinate t in [0, 1) on a repeating axis of `size` texels.
-LinearTap repeatTap(float t, int size) {
-    const float position = (t - std::floor(t)) * static_cast<float>(size) - 0.5f;
-    const float base = std::floor(position);
-    const int i = static_cast<int>(base);
-    return {i < 0 ? size - 1 : i, i + 1 < size ? i + 1 : 0, position - base};
-}
 
 struct FourTexels {
     const float *p00, *p10, *p01, *p11;
@@ -41,8 +27,8 @@ void interpolate(const FourTexels& texels, float x, float y, int count, float* _
 } // namespace
 
 void MaterialMap::sampleLogProfile(glm::vec2 uv, float* out) const {
-    const LinearTap tx = repeatTap(uv.x, width);
-    const LinearTap ty = repeatTap(uv.y, height);
+    const RepeatTap tx(uv.x, width);
+    const RepeatTap ty(uv.y, height);
     const float* p00 = logProfile.data() + index(tx.first, ty.first, 0);
     const float* p10 = logProfile.data() + index(tx.second, ty.first, 0);
     const float* p01 = logProfile.data() + index(tx.first, ty.second, 0);

@@ -1,5 +1,6 @@
 // Functions that exist in GLSL and in C++ give the same numbers, over grids with their ends and
 // ugly values: small compute shaders include the shipped files.
+#include "renderer/gather/far_energies.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/program.h"
 #include "renderer/gpu_blocks.h"
@@ -20,6 +21,7 @@
 #include <array>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <vector>
 
 namespace celadon {
@@ -61,6 +63,15 @@ void main() {
     if (i < in_.length()) {
         int m = int(in_[i].w);
         out_[i] = vec4(logProfile(m, in_[i].xy, in_[i].z), materialRadii(m, in_[i].xy).x);
+    }
+})"},
+    EmbeddedShader{"pair_far_energy.comp", R"(
+#include "pair_head.glsl"
+#include "include/material.glsl"
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i < in_.length()) {
+        out_[i] = vec4(logFarEnergy(int(in_[i].w), in_[i].xy, in_[i].z), 0.0);
     }
 })"},
     EmbeddedShader{"pair_tangents.comp", R"(
@@ -256,6 +267,35 @@ TEST_F(ShaderPairs, ManyMaterialsBesideOneAnother) {
         maps.push_back(map);
     }
     GpuMaterials materials(maps, 0.99, 0.01, ExitFresnel::Exact);
+    FarEnergies farEnergies(maps);
+    const auto expectSameFarEnergies = [&](std::span<const float> radii) {
+        int texelsRead = 0;
+        farEnergies.setRadii(radii, [&](int material, int knot, const subedit::TexelRect& rect,
+                                        std::span<std::uint16_t> halves) {
+            materials.readFarEnergy(material, knot, rect, halves);
+            texelsRead += static_cast<int>(rect.texels());
+        });
+        std::vector<glm::vec4> in;
+        for (int m = 0; m < kCount; ++m) {
+            for (const float u : {0.0f, 1.0f, 0.003f, 0.61f, 0.998f, -3.2f}) {
+                for (const float v : {0.0f, 0.004f, 0.43f, 0.995f, 7.7f}) {
+                    for (const float r : radii) {
+                        in.emplace_back(u, v, r, float(m));
+                    }
+                }
+            }
+        }
+        const std::vector<glm::vec4> out = evaluate("pair_far_energy.comp", in, kCount);
+        for (std::size_t i = 0; i < in.size(); ++i) {
+            const Four found = farEnergies.at(i % radii.size(), int(in[i].w), glm::vec2(in[i]));
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_NEAR(found[c], out[i][c], 1e-4f * std::max(1.0f, std::abs(out[i][c])))
+                    << "material " << in[i].w << ", uv " << in[i].x << " " << in[i].y << ", r "
+                    << in[i].z;
+            }
+        }
+        return texelsRead;
+    };
     const auto expectSame = [&] {
         materials.bind();
         std::vector<glm::vec4> in;
@@ -282,6 +322,10 @@ TEST_F(ShaderPairs, ManyMaterialsBesideOneAnother) {
         }
     };
     expectSame();
+    constexpr std::array kRadii{0.0f, 0.7f, 4.0f, 20.0f};
+    EXPECT_GT(expectSameFarEnergies(kRadii), 0);
+    EXPECT_EQ(expectSameFarEnergies(kRadii), 0) << "it is all there";
+    int texelsChanged = 0;
     for (int m = 0; m < kCount; ++m) {
         auto map = std::make_shared<subedit::MaterialMap>(*maps[static_cast<std::size_t>(m)]);
         // A rectangle that touches the right and the lower rim, or all of a small map.
@@ -295,9 +339,14 @@ TEST_F(ShaderPairs, ManyMaterialsBesideOneAnother) {
             }
         }
         materials.update(m, *map, rect);
+        farEnergies.changed(m, rect);
         maps[static_cast<std::size_t>(m)] = map;
+        texelsChanged += static_cast<int>(rect.texels());
     }
     expectSame();
+    EXPECT_EQ(expectSameFarEnergies(kRadii), 2 * int(kRadii.size()) * texelsChanged)
+        << "two knots about each radius, of what was edited";
+    expectSameFarEnergies(std::array{0.0f, 2.1f, 9.0f, 13.0f});
 }
 
 /// Large maps are made in parts, between which it can end.
