@@ -3,17 +3,19 @@
 #include "subedit/errors.h"
 #include "ui/background_jobs.h"
 #include "ui/background_open.h"
-#include "ui/deform_controls.h"
 #include "ui/file_actions.h"
 #include "ui/file_watch.h"
+#include "ui/input_router.h"
 #include "ui/key_actions.h"
 #include "ui/layout.h"
 #include "ui/panels/long_edit.h"
 #include "ui/picture_file.h"
 #include "ui/picture_worker.h"
+#include "ui/playback.h"
 #include "ui/preferences_commands.h"
 #include "ui/recovery_run.h"
 #include "ui/script.h"
+#include "ui/state_report.h"
 #include "ui/thumbnails.h"
 #include "ui/truth_view.h"
 #include "ui/user_folders.h"
@@ -27,7 +29,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <utility>
 
 namespace celadon::ui {
@@ -39,7 +40,6 @@ constexpr int kSettlingFrames = 3;
 constexpr double kWatchSeconds = 0.5;
 /// Of the interface where the driver is software: the rest of the processor makes the picture.
 constexpr std::chrono::milliseconds kSoftwareFrame{25};
-constexpr double kTurnDegreesPerSecond = 36.0;
 
 class Editor {
 public:
@@ -56,31 +56,20 @@ private:
     [[nodiscard]] std::string activity() const; ///< what is being waited for
     void cancelJobs();
     void offerRecovery();
-    void takeKey(KeyChord pressed);
     void act(Action action) {
         performAction(action,
                       {mSession, mTools, mViewport.rect(), mLayout, mActions, mPreferences.keys});
     }
-    /// Turntable and motion go on with the clock, as fast as pictures come. @return whether they
-    /// did
-    bool play();
     void composeFrame();
     void drawFrame();
     void drawContents();
     /// While an edit lasts: the window goes on. @throws GivenUp
     void showProgress(const std::string& title, float done);
-    void handleInput();
-    void handleKey(const InputEvent& event);
-    [[nodiscard]] bool mustWait(const InputEvent& event, bool overUi);
     void advanceScript();
     void setActions();
     void applyPreferences();
     void keepJournal();
     void takeScreenshot(const std::filesystem::path& file);
-    /// Plays, or stops at the moment that is shown; where nothing changes over time, the turntable.
-    void togglePlay();
-    [[nodiscard]] nlohmann::json state() const;
-    [[nodiscard]] nlohmann::json chosenControlPlace() const; ///< window pixels; null: none
     [[nodiscard]] bool mustDraw() const;
     [[nodiscard]] double secondsToFrame() const; ///< until the next one may be drawn
     [[nodiscard]] double secondsToSleep() const;
@@ -103,13 +92,13 @@ private:
     FileWatch mWatch;
     bool mIsPlaced = false;
     std::uint64_t mSeenWorld = 0;
-    OpenRequest mSeenScene;                             ///< the last of which there was a picture
-    std::chrono::steady_clock::time_point mPlayedUntil; ///< what turns or plays has come so far
+    OpenRequest mSeenScene; ///< the last of which there was a picture
     bool mShouldClose = false;
     int mFramesToDraw = kSettlingFrames;
-    bool mIsDrawing = false;        ///< within a frame
-    std::vector<InputEvent> mLater; ///< for the next frame
+    bool mIsDrawing = false; ///< within a frame
     LongEdit mLongEdit;
+    InputRouter mInput;
+    Playback mPlayback;
     std::chrono::steady_clock::time_point mNextFrame;
     BackgroundJobs mJobs; ///< after all that its results touch
     Thumbnails mThumbnails;
@@ -131,6 +120,9 @@ Editor::Editor(const EditorOptions& options)
       mRecovery(mSession, mJournal),
       mFiles(mSession, mOpen, mPreferences, mScript.isUnattended()),
       mSeenScene(options.greeting),
+      mInput({mSession, mTools, mViewport, mLayout, mPreferences, mRecovery, mFiles, mLongEdit,
+              [this](Action action) { act(action); }}),
+      mPlayback(mSession, mViewport, mLayout),
       mJobs(mWindow.jobsWindow(), [] { Window::wake(); }),
       mThumbnails(mJobs, cacheFolder() / "thumbnails"),
       mTruth(mJobs) {
@@ -209,7 +201,7 @@ void Editor::setActions() {
     };
     mActions.cancelJobs = [this] { cancelJobs(); };
     mActions.toggleFullScreen = [this] { mWindow.toggleFullScreen(); };
-    mActions.togglePlay = [this] { togglePlay(); };
+    mActions.togglePlay = [this] { mPlayback.toggle(); };
     mActions.toggleTurntable = [this] { mLayout.isTurning = !mLayout.isTurning; };
     mActions.quit = [this] {
         if (mRecovery.isRunning()) {
@@ -232,11 +224,10 @@ void Editor::offerRecovery() {
     if (!found) {
         return;
     }
-    const std::size_t steps = found->commands.size();
+    const std::size_t steps = found->steps();
     mFiles.ask(
         "Recovery",
-        fmt::format("Celadon did not close properly{}. {} step{} of painting on '{}' may not "
-                    "have been saved.",
+        fmt::format("Celadon did not close properly{}. {} step{} on '{}' may not have been saved.",
                     found->reason.empty() ? "" : " (" + found->reason + ")", steps,
                     steps == 1 ? "" : "s", found->opened.model),
         {{"Recover",
@@ -279,7 +270,7 @@ void Editor::step() {
     }
     mLongEdit.finish();
     bool mustRedraw = mViewport.update(mSession);
-    if (play()) { // the next picture is begun at once
+    if (mPlayback.advance(mInput.isHeld())) { // the next picture is begun at once
         mustRedraw |= mViewport.update(mSession);
     }
     if (mustRedraw) {
@@ -288,7 +279,8 @@ void Editor::step() {
     mTruth.update(mSession, mViewport.rect().size, mViewport.isAtRest(mSession));
     advanceScript();
     if (mOptions.state) {
-        mScript.writeState(state());
+        mScript.writeState(reportState(
+            {mSession, mViewport, mFiles, mScript, mOpen.isRunning(), progress().isQuiet}));
     }
     if (mWindow.wantsClose()) {
         mWindow.cancelClose();
@@ -337,7 +329,7 @@ double Editor::secondsToSleep() const {
     if (mOpen.isRunning() || mFiles.saving().isRunning() || mJobs.running()) {
         atMost(0.25); // the status bar shows how far it is
     }
-    if (mLayout.isTurning || mSession.motion.isPlaying) {
+    if (mPlayback.isOn()) {
         atMost(0.02);
     }
     if (!mSession.notices.empty()) {
@@ -480,41 +472,6 @@ void Editor::worldOpened() {
     }
 }
 
-bool Editor::play() {
-    const auto now = std::chrono::steady_clock::now();
-    const bool isOn = mLayout.isTurning || mSession.motion.isPlaying;
-    const bool isHeld = !mLater.empty(); // the hand waits for the shape of this moment
-    if (!isOn || isHeld || !mSession.hasWorld()) {
-        mPlayedUntil = now;
-        return false;
-    }
-    if (mViewport.isWaiting()) {
-        return false; // no moment is skipped for one that would never be shown
-    }
-    const double seconds = std::chrono::duration<double>(now - mPlayedUntil).count();
-    mPlayedUntil = now;
-    if (mLayout.isTurning) {
-        mSession.perform({"camera.turntable", {{"degrees", kTurnDegreesPerSecond * seconds}}});
-    }
-    if (mSession.motion.isPlaying && !mSession.advanceTime(seconds)) {
-        togglePlay();
-    }
-    return true;
-}
-
-void Editor::togglePlay() {
-    MotionState& motion = mSession.motion;
-    const double duration = mSession.hasWorld() ? mSession.mover().durationSeconds() : 0.0;
-    if (motion.isPlaying || duration > 0.0) {
-        const bool isOver = !motion.isPlaying && !motion.loops && motion.now.seconds >= duration;
-        mSession.perform(
-            {"motion.play",
-             {{"on", !motion.isPlaying}, {"seconds", isOver ? 0.0 : motion.now.seconds}}});
-    } else {
-        mActions.toggleTurntable();
-    }
-}
-
 void Editor::drawContents() {
     ImDrawList& background = *ImGui::GetBackgroundDrawList();
     const ViewportRect& rect = mViewport.rect();
@@ -552,7 +509,7 @@ void Editor::composeFrame() {
     mViewport.setRect(rect);
     mSession.aspect = rect.aspect();
     mLayout.hasPen = mWindow.hasPen();
-    handleInput();
+    mInput.take(mWindow.takeInput());
     drawContents();
     mWindow.endFrame();
     mIsDrawing = false;
@@ -578,67 +535,6 @@ void Editor::takeScreenshot(const std::filesystem::path& file) {
     writePicture(file, pixels, size);
 }
 
-/// The key that the preferences wait for: Escape leaves it as it was, Backspace takes it away.
-void Editor::takeKey(KeyChord pressed) {
-    const bool isGivenUp = pressed == *parseChord("Esc");
-    const bool isNone = pressed == *parseChord("Back");
-    if (!isGivenUp && !isNone && chordText(pressed).empty()) {
-        return; // shift and the like: more is to come
-    }
-    if (!isGivenUp) {
-        mSession.perform({"preferences.key",
-                          {{"action", actionName(*mLayout.keyWantedFor)},
-                           {"key", isNone ? std::string() : chordText(pressed)}}});
-    }
-    mLayout.keyWantedFor.reset();
-}
-
-void Editor::handleKey(const InputEvent& event) {
-    const KeyChord pressed{event.button, event.modifiers};
-    if (mLayout.keyWantedFor) {
-        takeKey(pressed);
-        return;
-    }
-    const std::optional<Action> action = mPreferences.keys.find(pressed);
-    if (action && !mRecovery.isRunning() && (!event.isRepeated || repeats(*action)) &&
-        !ImGui::GetIO().WantTextInput && !mFiles.isAsking()) {
-        act(*action);
-    }
-}
-
-/// Nothing overtakes what waits for the end of the frame, or for the shape that is shown.
-bool Editor::mustWait(const InputEvent& event, bool overUi) {
-    return mLongEdit.isShown() || mSession.hasWaiting() || !mLater.empty() ||
-           mTools.mustWait(event, mViewport.rect(), overUi);
-}
-
-void Editor::handleInput() {
-    const ImGuiIO& io = ImGui::GetIO();
-    mTools.setLightsFirst(mLayout.panelsShown && mLayout.tab == Tab::Light);
-    std::vector<InputEvent> events = std::exchange(mLater, {});
-    const bool isHeld = mTools.isDragging() || !events.empty();
-    for (const InputEvent& event : mWindow.takeInput()) {
-        // A long edit that shows takes no input, but a stroke goes on after it.
-        if (!mLongEdit.isShown() || isHeld) {
-            events.push_back(event);
-        }
-    }
-    for (const InputEvent& event : events) {
-        // A press beside a field that is being typed in only leaves it.
-        const bool leavesField = event.kind == InputEvent::Kind::Press && io.WantTextInput;
-        const bool overUi = (io.WantCaptureMouse || leavesField) && !mTools.isDragging();
-        if (mustWait(event, overUi)) {
-            mLater.push_back(event);
-        } else if (event.kind == InputEvent::Kind::Key) {
-            handleKey(event);
-        } else if (!mRecovery.isRunning()) {
-            mTools.handle(event, mViewport.rect(), overUi);
-        }
-    }
-    mTools.hover({static_cast<double>(io.MousePos.x), static_cast<double>(io.MousePos.y)},
-                 io.WantCaptureMouse);
-}
-
 void Editor::advanceScript() {
     if (mOpen.isRunning() || !mSession.hasWorld()) {
         return;
@@ -651,43 +547,6 @@ void Editor::advanceScript() {
         mFramesToDraw = kSettlingFrames;
     }
     mShouldClose |= step.isOver;
-}
-
-nlohmann::json Editor::chosenControlPlace() const {
-    for (const DeformControl& control : shownControls(mSession)) {
-        if (control.index == mSession.motion.control) {
-            const glm::dvec2 at = seenAt(mSession.camera, control.shownMm, mViewport.rect());
-            return {std::round(at.x), std::round(at.y)};
-        }
-    }
-    return nullptr;
-}
-
-nlohmann::json Editor::state() const {
-    const ViewportRect& rect = mViewport.rect();
-    const subedit::Document* const document = mSession.activeDocument();
-    return {{"model", mSession.opened().model},
-            {"open", mSession.hasWorld()},
-            {"opening", mOpen.isRunning()},
-            {"preparing", mViewport.isPreparing()},
-            {"settled", progress().isQuiet},
-            {"rung", mViewport.shownRung()},
-            {"revision", mSession.pictureRevision()},
-            {"viewport", {rect.origin.x, rect.origin.y, rect.size.x, rect.size.y}},
-            {"replayed", mScript.executed()},
-            {"pictures", mViewport.pictureCount()},
-            {"pictureMs", std::round(mViewport.shown().timeMs)},
-            {"modified", mSession.isModified()},
-            {"asking", mFiles.isAsking()},
-            {"problem", mFiles.problem()},
-            {"typing", ImGui::GetIO().WantTextInput},
-            {"undo", mSession.undoTitle().has_value()},
-            {"playing", mSession.motion.isPlaying},
-            {"seconds", mSession.motion.now.seconds},
-            {"deformers", mSession.motion.now.deformers.size()},
-            {"control", chosenControlPlace()},
-            {"strokes", document != nullptr ? document->commandCount() : 0},
-            {"notices", mSession.notices.empty() ? "" : mSession.notices.back().text}};
 }
 
 } // namespace

@@ -56,6 +56,15 @@ bool changesWork(const Command& command) {
            (command.name.starts_with("deform.") && command.name != "deform.save");
 }
 
+bool continuesStep(const Command& command) {
+    return command.arguments.value("continues", false);
+}
+
+std::size_t Recovery::steps() const {
+    return commands.size() -
+           static_cast<std::size_t>(std::ranges::count_if(commands, continuesStep));
+}
+
 Journal::Journal(std::filesystem::path folder) : mFolder(std::move(folder)) {}
 
 Journal::~Journal() = default;

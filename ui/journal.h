@@ -56,7 +56,12 @@ struct Recovery {
     OpenRequest opened;
     std::vector<Command> commands;
     std::string reason{}; ///< why it ended; empty: it could not say
+
+    /// As who did them counts: a drag is one, however many commands it is.
+    [[nodiscard]] std::size_t steps() const;
 };
+/// Whether a command goes on with what the one before it did.
+[[nodiscard]] bool continuesStep(const Command& command);
 
 /// The latest journal of a process that is no more; broken ones are passed over.
 [[nodiscard]] std::optional<Recovery> findRecovery(const std::filesystem::path& folder);

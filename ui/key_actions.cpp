@@ -1,6 +1,7 @@
 #include "ui/key_actions.h"
 
 #include <imgui.h>
+#include <imgui_internal.h> // ClosePopupsExceptModals
 
 #include <algorithm>
 #include <array>
@@ -84,6 +85,7 @@ void cancel(const KeyTargets& t) {
     if (!isAnyOpen && !t.session.notices.empty()) {
         t.session.notices.pop_back();
     }
+    ImGui::ClosePopupsExceptModals(); // lists, a color picker
     t.layout.openMenu = "none";
     t.layout.helpShown = false;
     t.layout.preferencesShown = false;

@@ -17,13 +17,13 @@ void RecoveryRun::await(Recovery recovery) {
 void RecoveryRun::sceneOpened() {
     if (mAwaited && mAwaited->opened == mSession.opened()) {
         mRunning = std::exchange(mAwaited, std::nullopt);
-        mSteps = mGoodSteps = 0;
+        mDone = mSteps = mGoodSteps = 0;
         mSession.setHistoryBytes(std::numeric_limits<std::size_t>::max()); // as much as was undone
     }
 }
 
 std::string RecoveryRun::activity() const {
-    return mRunning ? fmt::format("Recovering, step {} of {}", mSteps, mRunning->commands.size())
+    return mRunning ? fmt::format("Recovering, step {} of {}", mSteps, mRunning->steps())
                     : std::string();
 }
 
@@ -32,10 +32,13 @@ bool RecoveryRun::advance(bool keepsJournal) {
     constexpr auto kAtOnce = std::chrono::milliseconds(80);
     const auto begin = Clock::now();
     const std::vector<Command>& commands = mRunning->commands;
-    while (mSteps < commands.size() && Clock::now() - begin < kAtOnce) {
-        mGoodSteps += mSession.performNow(commands[mSteps++]) ? 1 : 0;
+    while (mDone < commands.size() && Clock::now() - begin < kAtOnce) {
+        const Command& command = commands[mDone++];
+        const bool isNew = !continuesStep(command);
+        mSteps += isNew ? 1 : 0;
+        mGoodSteps += mSession.performNow(command) && isNew ? 1 : 0;
     }
-    if (mSteps < commands.size()) {
+    if (mDone < commands.size()) {
         return false;
     }
     finish(keepsJournal);
@@ -56,7 +59,7 @@ void RecoveryRun::finish(bool keepsJournal) {
     mSession.forgetMaterialFiles(); // nothing takes a file's name unless asked to
     mSession.notify(Notice::Kind::Info,
                     fmt::format("Recovered {} of {} steps; they are not saved yet", mGoodSteps,
-                                recovered.commands.size()));
+                                recovered.steps()));
 }
 
 } // namespace celadon::ui

@@ -38,7 +38,8 @@ private:
     Session& mSession;
     Journal& mJournal;
     std::optional<Recovery> mAwaited, mRunning;
-    std::size_t mSteps = 0, mGoodSteps = 0; ///< so far
+    std::size_t mDone = 0;                  ///< commands so far
+    std::size_t mSteps = 0, mGoodSteps = 0; ///< the same in steps
 };
 
 } // namespace celadon::ui

@@ -47,6 +47,25 @@ std::vector<std::string> extensionNames(const JsonElement& root, const char* mem
     return names;
 }
 
+/// Whether an extension only stands in for SubEdit materials, as in our own exports: whoever has it
+/// names one in `extras.subedit`, which says more.
+bool isStandIn(const JsonElement& root, const std::string& name) {
+    if (name != "KHR_materials_volume" && name != "KHR_materials_diffuse_transmission") {
+        return false;
+    }
+    const auto materials = root.value().find("materials");
+    if (materials == root.value().end() || !materials->is_array()) {
+        return false;
+    }
+    return std::ranges::all_of(*materials, [&](const nlohmann::json& material) {
+        const auto holds = [&](const char* member, const std::string& key) {
+            const auto found = material.find(member);
+            return found != material.end() && found->is_object() && found->contains(key);
+        };
+        return !material.is_object() || !holds("extensions", name) || holds("extras", "subedit");
+    });
+}
+
 std::string joined(const std::vector<std::string>& names) {
     std::string text;
     for (const std::string& name : names) {
@@ -92,7 +111,7 @@ void checkGltfVersion(const JsonElement& root) {
 std::vector<std::string> unsupportedExtensions(const JsonElement& root) {
     std::vector<std::string> ignored;
     for (const std::string& name : extensionNames(root, "extensionsUsed")) {
-        if (!contains(kSupported, name) && !contains(kSilent, name)) {
+        if (!contains(kSupported, name) && !contains(kSilent, name) && !isStandIn(root, name)) {
             ignored.push_back(name);
         }
     }

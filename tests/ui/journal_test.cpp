@@ -58,6 +58,24 @@ TEST(Journal, LosesAtMostTheLineThatWasCut) {
     EXPECT_EQ(found->commands.size(), 1u);
 }
 
+TEST(Journal, CountsADragAsOneStep) {
+    const test::TemporaryFolder folder;
+    {
+        Journal journal(folder.path());
+        journal.begin({"m", ""});
+        EXPECT_FALSE(journal.add(kEdit));
+        for (const bool continues : {false, true, true}) {
+            EXPECT_FALSE(
+                journal.add({"deform.change", {{"deformer", 0}, {"continues", continues}}}));
+        }
+    }
+    abandon(folder.path());
+    const auto found = findRecovery(folder.path());
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->commands.size(), 4u);
+    EXPECT_EQ(found->steps(), 2u);
+}
+
 TEST(Journal, SaysWhyItEnded) {
     const test::TemporaryFolder folder;
     {

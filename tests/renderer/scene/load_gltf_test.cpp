@@ -556,6 +556,20 @@ TEST_F(GltfTest, RequiredExtensionsThatWeLackAreNamed) {
     EXPECT_THAT(load().warnings, ElementsAre(HasSubstr("ignores EXT_mesh_gpu_instancing")));
 }
 
+TEST_F(GltfTest, ExtensionsThatStandInForASubEditMaterialAreNotMissed) {
+    mGltf.addTriangle();
+    mGltf.json["extensionsUsed"] = {"KHR_materials_volume", "KHR_materials_diffuse_transmission"};
+    nlohmann::json wax = {{"extensions",
+                           {{"KHR_materials_volume", {{"thicknessFactor", 0.01}}},
+                            {"KHR_materials_diffuse_transmission", nlohmann::json::object()}}},
+                          {"extras", {{"subedit", "wax.subedit.exr"}}}};
+    mGltf.json["materials"] = {wax};
+    EXPECT_THAT(load().warnings, ElementsAre());
+    wax.erase("extras");
+    mGltf.json["materials"].push_back(wax);
+    EXPECT_THAT(load().warnings, ElementsAre(HasSubstr("ignores KHR_materials_volume, KHR_mat")));
+}
+
 TEST_F(GltfTest, VersionsOtherThanTwoAreRefused) {
     mGltf.addTriangle();
     mGltf.json["asset"]["version"] = "1.0";
