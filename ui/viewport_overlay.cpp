@@ -1,5 +1,6 @@
 #include "ui/viewport_overlay.h"
 
+#include "renderer/output/tone_map.h"
 #include "ui/camera_controller.h"
 #include "ui/deform_controls.h"
 
@@ -176,8 +177,9 @@ void drawLights(const Canvas& canvas) {
         const glm::dvec3 c = item.light.color / std::max({item.light.color.x, item.light.color.y,
                                                           item.light.color.z, 1e-9});
         const bool isSelected = static_cast<int>(i) == session.selectedLight;
-        const ImU32 fill = ImGui::GetColorU32(
-            ImVec4(float(c.x), float(c.y), float(c.z), item.isOn ? 0.95f : 0.25f));
+        const ImU32 fill =
+            ImGui::GetColorU32(ImVec4(encodeSrgb(float(c.x)), encodeSrgb(float(c.y)),
+                                      encodeSrgb(float(c.z)), item.isOn ? 0.95f : 0.25f));
         const ImU32 line = ImGui::GetColorU32(ImVec4(1.0f, 1.0f, 1.0f, isSelected ? 0.8f : 0.35f));
         if (item.light.kind != Light::Kind::Point) { // the way of the light, a short line
             canvas.list.AddLine(center, canvas.at(at + 0.22 * object.radius * item.light.direction),

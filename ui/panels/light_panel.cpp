@@ -85,8 +85,11 @@ void drawSelected(Session& session) {
     float rgb[3] = {float(tint.x), float(tint.y), float(tint.z)};
     if (colorField("Color", rgb, "Linear color of the light; its strength is set above")) {
         const glm::dvec3 picked(rgb[0], rgb[1], rgb[2]);
-        const double top = std::max({picked.x, picked.y, picked.z, 1e-6});
-        change("color", toJson(strongest / top * picked));
+        const glm::dvec3 color =
+            strongest / std::max({picked.x, picked.y, picked.z, 1e-6}) * picked;
+        if (glm::distance(color, light.color) > 1e-5 * strongest) { // not only darker
+            change("color", toJson(color));
+        }
     }
     if (light.kind != Light::Kind::Point) {
         float azimuth =

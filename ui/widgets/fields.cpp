@@ -1,11 +1,13 @@
 #include "ui/widgets/fields.h"
 
+#include "renderer/output/tone_map.h"
 #include "ui/theme.h"
 
 #include <imgui.h>
+#include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <imgui_stdlib.h>
+#include <cmath>
 
 namespace celadon::ui {
 
@@ -108,13 +110,35 @@ bool textField(const char* name, std::string& text, const char* help) {
 }
 
 bool colorField(const char* name, float rgb[3], const char* help) {
+    constexpr ImGuiColorEditFlags kPlain = ImGuiColorEditFlags_NoTooltip;
+    static ImVec4 original; // of the one picker that is open
     ImGui::PushID(name);
     label(name, help);
-    const bool changed = ImGui::ColorEdit3(
-        "##value", rgb, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_NoOptions);
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    ImGui::SetNextItemWidth(-ImGui::GetFrameHeight() - gap);
+    bool isChanged = ImGui::DragFloat3("##value", rgb, 1.0f / 255.0f, 0.0f, 1.0f, "%.3f",
+                                       ImGuiSliderFlags_AlwaysClamp);
     tooltip(help);
+    ImGui::SameLine(0.0f, gap);
+    float shown[4] = {encodeSrgb(rgb[0]), encodeSrgb(rgb[1]), encodeSrgb(rgb[2])};
+    const ImVec4 now(shown[0], shown[1], shown[2], 1.0f);
+    if (ImGui::ColorButton("##shown", now, kPlain)) {
+        original = now;
+        ImGui::OpenPopup("picker");
+    }
+    tooltip("The color as it looks: opens a picker, whose numbers are those of a screen (sRGB)");
+    if (ImGui::BeginPopup("picker")) {
+        if (ImGui::ColorPicker4("##picker", shown, kPlain | ImGuiColorEditFlags_NoAlpha,
+                                &original.x)) {
+            // It says so as long as it is held, and what it gives back is not quite the same.
+            isChanged = std::max({std::abs(shown[0] - now.x), std::abs(shown[1] - now.y),
+                                  std::abs(shown[2] - now.z)}) > 1e-3f;
+            std::transform(shown, shown + 3, rgb, decodeSrgb);
+        }
+        ImGui::EndPopup();
+    }
     ImGui::PopID();
-    return changed;
+    return isChanged;
 }
 
 int choiceRow(const char* id, const char* const* labels, const char* const* helps, int count,
