@@ -1,7 +1,7 @@
 #include "ui/viewport_tools.h"
 
-#include "subedit/errors.h"
 #include "ui/deform_controls.h"
+#include "ui/tool_hint.h"
 #include "ui/viewport_overlay.h"
 
 #define GLFW_INCLUDE_NONE
@@ -23,26 +23,6 @@ constexpr double kGizmoReachPx = 14.0; ///< at a scale of 1
 /// Else the button is the view's.
 bool isForTool(const InputEvent& press) {
     return press.button == GLFW_MOUSE_BUTTON_LEFT && (press.modifiers & GLFW_MOD_ALT) == 0;
-}
-
-/// Its points as numbers, and which of them begin anew after a gap.
-Command scribbleCommand(const std::vector<subedit::StrokePoint>& path, bool isInverted) {
-    Command command{"scribble.add", {{"strength", isInverted ? 0.0 : 1.0}}};
-    std::vector<double> numbers;
-    std::vector<std::size_t> lifted;
-    for (std::size_t i = 0; i < path.size(); ++i) {
-        for (const glm::dvec3 v : {glm::dvec3(path[i].positionMm), glm::dvec3(path[i].normal)}) {
-            numbers.insert(numbers.end(), {v.x, v.y, v.z});
-        }
-        if (path[i].isLifted) {
-            lifted.push_back(i);
-        }
-    }
-    command.arguments["path"] = numbers;
-    if (!lifted.empty()) {
-        command.arguments["lifted"] = lifted;
-    }
-    return command;
 }
 
 } // namespace
@@ -156,7 +136,7 @@ bool ViewportTools::picks(const InputEvent& event, const ViewportRect& rect, boo
         return begins;
     case InputEvent::Kind::Move:
     case InputEvent::Kind::Release:
-        return mDrag == Drag::Paint || mDrag == Drag::Scribble || mDrag == Drag::Line;
+        return mDrag == Drag::Path || mDrag == Drag::Line;
     case InputEvent::Kind::Key:
         break;
     }
@@ -238,9 +218,8 @@ void ViewportTools::move(const InputEvent& event, const ViewportRect& rect) {
     case Drag::Control:
         dragControlBy(delta, rect);
         break;
-    case Drag::Paint:
-    case Drag::Scribble:
-        paintTo(event, rect);
+    case Drag::Path:
+        mPath.continueTo(event, rect);
         break;
     case Drag::Line:
         drawLineTo(event.positionPx, rect);
@@ -251,11 +230,8 @@ void ViewportTools::move(const InputEvent& event, const ViewportRect& rect) {
 }
 
 void ViewportTools::finishDrag() {
-    if (mDrag == Drag::Paint) {
-        mSession.endStroke();
-    } else if (mDrag == Drag::Scribble) {
-        mSession.perform(scribbleCommand(mScribble, mInverted));
-        mScribble.clear();
+    if (mDrag == Drag::Path) {
+        mPath.finish();
     }
     mDrag = Drag::None;
     mButton = -1;
@@ -323,7 +299,7 @@ void ViewportTools::pressSurface(const SurfacePoint& hit, const InputEvent& even
     const bool isShifted = (event.modifiers & GLFW_MOD_SHIFT) != 0;
     const nlohmann::json place{{"position", toJson(hit.positionMm)},
                                {"normal", toJson(hit.shadingNormal)}};
-    mInverted = (event.modifiers & GLFW_MOD_CONTROL) != 0 || event.isEraser;
+    const bool isInverted = (event.modifiers & GLFW_MOD_CONTROL) != 0 || event.isEraser;
     if (paint.tool == Tool::Similar) {
         Command select{"select.similar", place};
         select.arguments["tolerance"] = paint.tolerance;
@@ -334,17 +310,15 @@ void ViewportTools::pressSurface(const SurfacePoint& hit, const InputEvent& even
     }
     if (paint.tool == Tool::Stamp) {
         Command stamp{"stamp.place", place};
-        stamp.arguments["inverted"] = mInverted;
+        stamp.arguments["inverted"] = isInverted;
         activate(hit.material);
         mSession.perform(stamp);
         return;
     }
     if (paint.tool == Tool::Scribble) {
         activate(hit.material);
-        mDrag = Drag::Scribble;
-        mScribble.clear();
-        beginPath(event, hit.material);
-        addToPath(event.positionPx, 1.0f, rect);
+        mDrag = Drag::Path;
+        mPath.begin(SurfacePath::Kind::Scribble, event, hit.material, isInverted, rect);
         return;
     }
     if (paint.tool == Tool::Paint && paint.op == PaintOperator::Gradient && isShifted) {
@@ -363,81 +337,8 @@ void ViewportTools::pressSurface(const SurfacePoint& hit, const InputEvent& even
         paint.cloneTarget->positionMm = glm::vec3(hit.positionMm);
         paint.cloneTarget->normal = glm::vec3(hit.shadingNormal);
     }
-    mDrag = Drag::Paint;
-    beginPath(event, hit.material);
-    addToPath(event.positionPx, mPaintedPressure, rect);
-}
-
-float ViewportTools::pressureOf(const InputEvent& event) const {
-    return mSession.paint.heedsPressure ? event.pressure : 1.0f;
-}
-
-std::optional<subedit::StrokePoint> ViewportTools::pathPoint(glm::dvec2 positionPx, float pressure,
-                                                             const ViewportRect& rect) {
-    const std::optional<SurfacePoint> hit = mPicker.pickAtRest(positionPx, rect);
-    if (!hit || hit->material < 0 || hit->material != mPathMaterial) {
-        mLastPoint.reset();
-        return std::nullopt;
-    }
-    subedit::StrokePoint point;
-    point.positionMm = glm::vec3(hit->positionMm);
-    point.normal = glm::vec3(hit->shadingNormal);
-    point.pressure = pressure;
-    // After a gap, or where the surface jumps, the path begins anew: nothing between is painted.
-    constexpr double kJump = 2.5; // radii
-    point.isLifted = !mLastPoint || glm::distance(*mLastPoint, hit->positionMm) >=
-                                        kJump * static_cast<double>(mSession.paint.brush.radiusMm);
-    mLastPoint = hit->positionMm;
-    return point;
-}
-
-void ViewportTools::beginPath(const InputEvent& event, int material) {
-    mPaintedPx = event.positionPx;
-    mPaintedPressure = pressureOf(event);
-    mPathMaterial = material;
-    mLastPoint.reset();
-}
-
-void ViewportTools::addToPath(glm::dvec2 positionPx, float pressure, const ViewportRect& rect) {
-    std::optional<subedit::StrokePoint> point = pathPoint(positionPx, pressure, rect);
-    if (!point) {
-        return;
-    }
-    if (mDrag == Drag::Scribble) {
-        point->isLifted = point->isLifted && !mScribble.empty();
-        mScribble.push_back(*point);
-    } else if (mSession.isStrokeOpen()) {
-        mSession.addStrokePoint(*point);
-    } else {
-        point->isLifted = false;
-        try {
-            mSession.beginStroke(mPathMaterial, *point, mInverted);
-        } catch (const Error& error) {
-            mSession.notify(error);
-        }
-    }
-}
-
-void ViewportTools::paintTo(const InputEvent& event, const ViewportRect& rect) {
-    // A fast hand: points between, so that the path follows the surface.
-    constexpr int kMostPoints = 2048; // more than a window is wide, at a pixel each
-    const glm::dvec2 from = mPaintedPx;
-    const float pressure = pressureOf(event);
-    double stepPx = 8.0;
-    if (mLastPoint) {
-        const double mmPerPx = pictureHeightMm(mSession.camera, *mLastPoint) / rect.size.y;
-        stepPx = std::max(1.0, 0.5 * static_cast<double>(mSession.paint.brush.radiusMm) / mmPerPx);
-    }
-    const int steps =
-        std::clamp(static_cast<int>(std::ceil(glm::distance(from, event.positionPx) / stepPx)), 1,
-                   kMostPoints);
-    for (int i = 1; i <= steps; ++i) {
-        const double along = static_cast<double>(i) / steps;
-        addToPath(glm::mix(from, event.positionPx, along),
-                  glm::mix(mPaintedPressure, pressure, static_cast<float>(along)), rect);
-    }
-    mPaintedPx = event.positionPx;
-    mPaintedPressure = pressure;
+    mDrag = Drag::Path;
+    mPath.begin(SurfacePath::Kind::Stroke, event, hit.material, isInverted, rect);
 }
 
 void ViewportTools::cancel() {
@@ -447,7 +348,7 @@ void ViewportTools::cancel() {
                            {"flow", static_cast<double>(mAdjust->brush.flow)}}});
         mAdjust.reset();
     }
-    if (mDrag == Drag::Paint || mDrag == Drag::Scribble) {
+    if (mDrag == Drag::Path) {
         mSession.cancelStroke();
         mDrag = Drag::None;
     }
@@ -493,11 +394,10 @@ std::optional<glm::dvec2> ViewportTools::brushPlace(const ViewportRect& rect) co
         return glm::dvec2(rect.origin) + *mPretended * glm::dvec2(rect.size);
     }
     const glm::dvec2 at = mAdjust ? mAdjust->start : mCursor;
-    const bool isPainting = mDrag == Drag::Paint || mDrag == Drag::Scribble;
     // While it plays, the surface under a resting cursor is not looked for: that takes a moment.
     const bool isFree = mDrag == Drag::None && !mIsOverUi && !mSession.motion.isPlaying &&
                         !mSession.motion.isAddingHandles;
-    return rect.contains(at) && (isPainting || isFree) ? std::optional(at) : std::nullopt;
+    return rect.contains(at) && (mDrag == Drag::Path || isFree) ? std::optional(at) : std::nullopt;
 }
 
 std::string ViewportTools::hint() const {
@@ -531,41 +431,7 @@ std::string ViewportTools::hint() const {
     if (mSession.motion.isAddingHandles) {
         return fmt::format("Click: a handle there{}Drag handles{}Esc: enough", dot, dot);
     }
-    if (!mSession.services().isPaintable) {
-        return "Left: turn   \xc2\xb7   Shift+middle: shift   \xc2\xb7   Wheel: zoom";
-    }
-    const char* const turn = "Middle: turn   \xc2\xb7   Wheel: zoom";
-    switch (paint.tool) {
-    case Tool::Select:
-        return fmt::format("Brush a selection, {}{}Ctrl: take away{}{}", size, dot, dot, turn);
-    case Tool::Similar:
-        return fmt::format("Click: select what looks like it{}Shift: add{}{}", dot, dot, turn);
-    case Tool::Pick:
-        return fmt::format("Click: take the profile there{}{}", dot, turn);
-    case Tool::Scribble:
-        return fmt::format("Scribble over what you mean{}Ctrl: over what stays{}then Apply{}{}",
-                           dot, dot, dot, turn);
-    case Tool::Stamp:
-        return paint.stamp.isSet() ? fmt::format("Click: stamp '{}', {} half wide{}{}",
-                                                 paint.stamp.name, size, dot, turn)
-                                   : std::string("Open an image to stamp, or drop one here");
-    case Tool::Paint:
-        break;
-    }
-    const PaintOperatorName& op = paintOperator(paint.op);
-    const bool isCopying = paint.op == PaintOperator::Clone || paint.op == PaintOperator::Pattern;
-    if (isCopying) {
-        return paint.cloneSource
-                   ? fmt::format("{}, {}{}Shift+click: another source{}{}", op.label, size, dot,
-                                 dot, turn)
-                   : fmt::format("{}: Shift+click where to copy from{}{}", op.label, dot, turn);
-    }
-    if (paint.op == PaintOperator::Gradient && paint.gradientFromMm == paint.gradientToMm) {
-        return fmt::format("Gradient: Shift+drag its line over the surface{}{}", dot, turn);
-    }
-    return op.inverse != nullptr
-               ? fmt::format("{}, {}{}Ctrl: {}{}{}", op.label, size, dot, op.inverse, dot, turn)
-               : fmt::format("{}, {}{}{}", op.label, size, dot, turn);
+    return toolHint(mSession);
 }
 
 void ViewportTools::drawOverlay(ImDrawList& list, const ViewportRect& rect, float scale) {

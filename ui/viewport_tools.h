@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ui/session.h"
+#include "ui/surface_path.h"
 #include "ui/surface_picker.h"
 #include "ui/viewport.h"
 #include "ui/window.h"
@@ -61,7 +62,7 @@ public:
     void setLightsFirst(bool on) { mLightsFirst = on; }
 
 private:
-    enum class Drag { None, Orbit, Pan, Zoom, Light, Control, Paint, Scribble, Line };
+    enum class Drag { None, Orbit, Pan, Zoom, Light, Control, Path, Line };
 
     /// What a button does to the view; None: nothing.
     [[nodiscard]] static Drag viewDrag(const InputEvent& event);
@@ -75,15 +76,6 @@ private:
     /// @return whether the surface is there
     bool addHandleAt(glm::dvec2 positionPx, const ViewportRect& rect);
     void pressTool(const InputEvent& event, const ViewportRect& rect);
-    /// A stroke or a scribble over the surface, on one material.
-    void beginPath(const InputEvent& event, int material);
-    void paintTo(const InputEvent& event, const ViewportRect& rect);
-    void addToPath(glm::dvec2 positionPx, float pressure, const ViewportRect& rect);
-    /// None beside the surface.
-    [[nodiscard]] std::optional<subedit::StrokePoint>
-    pathPoint(glm::dvec2 positionPx, float pressure, const ViewportRect& rect);
-    /// Of a brush that listens to it; else 1.
-    [[nodiscard]] float pressureOf(const InputEvent& event) const;
     void adjust(glm::dvec2 positionPx);
     void pressSurface(const SurfacePoint& hit, const InputEvent& event, const ViewportRect& rect);
     void drawLineTo(glm::dvec2 positionPx, const ViewportRect& rect);
@@ -102,11 +94,6 @@ private:
     glm::dvec3 mPivot{0.0};
     glm::dvec2 mCursor{-1.0};
     bool mIsOverUi = true;
-    glm::dvec2 mPaintedPx{0.0};           ///< where the stroke has come
-    float mPaintedPressure = 1.0f;        ///< and with how much pressure
-    bool mInverted = false;               ///< Ctrl was down as the stroke began, or it erases
-    int mPathMaterial = -1;               ///< on which the stroke began, and stays
-    std::optional<glm::dvec3> mLastPoint; ///< of the stroke, mm; none after a gap
     struct Adjusting {
         Adjust what = Adjust::Radius;
         glm::dvec2 start{0.0};
@@ -114,8 +101,8 @@ private:
     };
     std::optional<Adjusting> mAdjust;
     SurfacePicker mPicker;
+    SurfacePath mPath{mSession, mPicker};
     std::optional<glm::dvec2> mPretended;
-    std::vector<subedit::StrokePoint> mScribble;
     glm::dvec3 mLineFrom{0.0}; ///< of a gradient
 };
 
