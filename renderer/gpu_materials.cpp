@@ -135,6 +135,7 @@ GpuMaterials::GpuMaterials(std::span<const MaterialPointer> materials, double en
                            double epsilon, ExitFresnel exitFresnel, const MakingProgress& tell,
                            std::span<const float> rangeTable)
     : mSlots(slotsOf(materials)),
+      mHeldFarEnergies(materials),
       mMapSampler("material map", gl::Filter::Linear),
       mTableSampler("range table", gl::Filter::Linear),
       mEnergy(energy) {
@@ -216,16 +217,20 @@ void GpuMaterials::update(int material, const subedit::MaterialMap& map,
     const glm::ivec2 mapSize(map.width, map.height);
     repeatAtBorder(mTables, corner, mapSize, knots + kExtraLayers, rect);
     repeatAtBorder(mFarEnergy, corner, mapSize, knots, rect);
+    mHeldFarEnergies.changed(material, rect);
 }
 
 glm::ivec3 GpuMaterials::cornerOf(int material) const {
     return mSlots.origins[static_cast<std::size_t>(material)] + glm::ivec3(kBorder, kBorder, 0);
 }
 
-void GpuMaterials::readFarEnergy(int material, int knot, const subedit::TexelRect& rect,
-                                 std::span<std::uint16_t> halves) const {
-    mFarEnergy.readRegion(0, cornerOf(material) + glm::ivec3(rect.x, rect.y, knot),
-                          glm::ivec3(rect.width, rect.height, 1), halves);
+FarEnergies::Selection GpuMaterials::selectFarEnergies(std::span<const float> radiiMm) const {
+    return mHeldFarEnergies.select(radiiMm, [this](int material, int knot,
+                                                   const subedit::TexelRect& rect,
+                                                   std::span<std::uint16_t> halves) {
+        mFarEnergy.readRegion(0, cornerOf(material) + glm::ivec3(rect.x, rect.y, knot),
+                              glm::ivec3(rect.width, rect.height, 1), halves);
+    });
 }
 
 void GpuMaterials::bind() const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "renderer/gather/far_energies.h"
 #include "renderer/gather/gather_materials.h"
 #include "renderer/gl/buffer.h"
 #include "renderer/gl/sampler.h"
@@ -50,10 +51,9 @@ public:
     [[nodiscard]] float shortRadiusMm() const { return mShortRadiusMm; }
     /// Knots that node profiles share.
     [[nodiscard]] const gather::Knots& commonKnots() const { return mCommonKnots; }
-    /// ln of the far energy at a knot: half-precision bits of a rectangle of a material's map,
-    /// [height][width][4].
-    void readFarEnergy(int material, int knot, const subedit::TexelRect& rect,
-                       std::span<std::uint16_t> halves) const;
+    /// ln of the far energy for the processor, which holds what was selected last; reads it back
+    /// where it is not there. Of all renderers that share this, one at a time.
+    [[nodiscard]] FarEnergies::Selection selectFarEnergies(std::span<const float> radiiMm) const;
     /// Rbar(T) (eq. 14).
     [[nodiscard]] float minimalRadius(float pixelsPerRadius, int material = 0) const;
 
@@ -65,6 +65,7 @@ private:
     MaterialSlots mSlots;
     gl::Texture mTables; ///< [layer][row][column][4]: ln P of the knots, radii, kept energy, lobe
     gl::Texture mFarEnergy; ///< the same places
+    mutable FarEnergies mHeldFarEnergies;
     gl::Texture mRangeTable;
     gl::Sampler mMapSampler, mTableSampler;
     std::vector<float> mRangeTables; ///< one row a material

@@ -2,7 +2,8 @@
 // Departures from eq. 17, each measured. A far ring depends on the pixel's own material through sqrt(P_xo): that factor, the
 // far energy, is divided out before interpolation and multiplied in after. On a smooth surface weights are bilinear and
 // nothing else, so that what changes linearly is reproduced; interpolation is cubic where far_light_sharpening.comp came
-// before. Other pixels are listed for accumulation_rough.comp. The cpu backend has the same in renderer/gather/level_accumulation.cpp.
+// before. Other pixels are listed for accumulation_rough.comp.
+// The cpu backend has the same in renderer/gather/level_accumulation.cpp.
 #include "include/upsampling.glsl"
 #include "include/covered_group.glsl"
 

@@ -1,6 +1,7 @@
 // Accumulation, second pass: pixels at silhouettes and folds, where light falls off along what curves away and no neighbor
 // lies beyond. A line is fitted to what is around, by distances along and off the surface. Never a hole, never a leak
 // across a silhouette.
+// The cpu backend has the same in renderer/gather/level_accumulation.cpp.
 #include "include/upsampling.glsl"
 #include "include/list_group.glsl"
 

@@ -1,6 +1,7 @@
 // For accumulation.comp: what a level of the splatting buffer hands to the next finer one. Its exitance comes from beyond
 // its ring's start and depends on the pixel's own material through sqrt(P_xo) alone; over that material's far energy,
 // it is light that changes slowly.
+// The cpu backend has the same in renderer/gather/level_accumulation.cpp.
 #include "include/far_ring.glsl"
 #include "include/material.glsl"
 #include "include/covered_group.glsl"

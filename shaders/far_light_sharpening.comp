@@ -3,6 +3,7 @@
 // interpolation alone makes far rings brighter, by 3/32 of the second difference along each axis, since every pixel of
 // the finer level lies a quarter of a pixel beside a center. That is taken away beforehand (what results are the
 // weights of Catmull and Rom 1974).
+// The cpu backend has the same in renderer/gather/level_accumulation.cpp.
 #include "include/far_ring.glsl"
 #include "include/covered_group.glsl"
 

@@ -1,7 +1,8 @@
 // One level of the splatting buffer from the level below (DESIGN 3.3): of each 2x2 the
 // texel of median depth among the covered scattering ones gives normal, texture coordinate and
 // material, whole; position and depth are the mean of those in the median's depth cluster, so that the
-// representative lies at the texel's center. Never a mean across a silhouette. The cpu backend has the same in renderer/gather/view_level.cpp.
+// representative lies at the texel's center. Never a mean across a silhouette.
+// The cpu backend has the same in renderer/gather/view_level.cpp.
 #include "include/bounds.glsl"
 #include "include/covered_group.glsl"
 

@@ -270,7 +270,7 @@ void Editor::step() {
     }
     mLongEdit.finish();
     bool mustRedraw = mViewport.update(mSession);
-    if (mPlayback.advance(mInput.isHeld())) { // the next picture is begun at once
+    if (mPlayback.advance(mInput.isWaiting())) { // the next picture is begun at once
         mustRedraw |= mViewport.update(mSession);
     }
     if (mustRedraw) {

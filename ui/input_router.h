@@ -31,7 +31,7 @@ public:
     /// Within a frame of ImGui, before anything is drawn.
     void take(const std::vector<InputEvent>& events);
     /// Something waits for the next frame.
-    [[nodiscard]] bool isHeld() const { return !mLater.empty(); }
+    [[nodiscard]] bool isWaiting() const { return !mLater.empty(); }
 
 private:
     void takeKey(KeyChord pressed);

@@ -57,7 +57,8 @@ bool changesWork(const Command& command) {
 }
 
 bool continuesStep(const Command& command) {
-    return command.arguments.value("continues", false);
+    const auto found = command.arguments.find("continues");
+    return found != command.arguments.end() && *found == true;
 }
 
 std::size_t Recovery::steps() const {

@@ -8,9 +8,9 @@ constexpr double kTurnDegreesPerSecond = 36.0;
 
 } // namespace
 
-bool Playback::advance(bool isHeld) {
+bool Playback::advance(bool isInputWaiting) {
     const auto now = std::chrono::steady_clock::now();
-    if (!isOn() || isHeld || !mSession.hasWorld()) {
+    if (!isOn() || isInputWaiting || !mSession.hasWorld()) {
         mPlayedUntil = now;
         return false;
     }

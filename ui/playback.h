@@ -13,9 +13,9 @@ public:
         : mSession(session), mViewport(viewport), mLayout(layout) {}
 
     [[nodiscard]] bool isOn() const { return mLayout.isTurning || mSession.motion.isPlaying; }
-    /// @param isHeld  the hand waits for the shape of this moment
+    /// @param isInputWaiting  for the shape of this moment: it must not go on
     /// @return whether anything went on
-    bool advance(bool isHeld);
+    bool advance(bool isInputWaiting);
     /// Plays, or stops at the moment that is shown; where nothing changes over time, the turntable.
     void toggle();
 

@@ -11,7 +11,12 @@ namespace celadon {
 
 namespace {
 
-constexpr std::size_t kTexelHalves = 8; ///< R, G, B and one unused, of two knots
+constexpr std::size_t kTexelHalves = 4; ///< R, G, B and one unused
+/// Rectangles that are kept apart, since those of a stroke may be far from each other.
+constexpr std::size_t kMostRects = 48;
+/// What is not asked for just now is kept while all is no more than this: the next picture may be
+/// of another size.
+constexpr std::size_t kSpareBytes = std::size_t{64} << 20;
 
 /// Numbers of half precision; no infinities, no NaN.
 Four fromHalves(const std::uint16_t* halves) {
@@ -32,67 +37,95 @@ FarEnergies::FarEnergies(std::span<const MaterialPointer> materials)
     : mMaterials(materials.begin(), materials.end()) {}
 
 void FarEnergies::changed(int material, const subedit::TexelRect& rect) {
-    for (std::size_t i = static_cast<std::size_t>(material); i < mSlices.size();
-         i += mMaterials.size()) {
-        mSlices[i].changed = unite(mSlices[i].changed, rect);
-    }
+    std::erase_if(mPlanes, [&](Plane& plane) {
+        if (plane.material != material) {
+            return false;
+        }
+        if (plane.changed.empty() || unite(plane.changed.back(), rect) != plane.changed.back()) {
+            plane.changed.push_back(rect);
+        }
+        return plane.changed.size() > kMostRects; // it is read anew when it is asked for
+    });
 }
 
-void FarEnergies::setRadii(std::span<const float> radiiMm, const Read& source) {
-    mSlices.resize(radiiMm.size() * mMaterials.size());
-    for (std::size_t i = 0; i < mSlices.size(); ++i) {
-        Slice& slice = mSlices[i];
-        const auto material = static_cast<int>(i % mMaterials.size());
-        const subedit::MaterialMap& map = mapOf(material);
-        const auto segments = static_cast<float>(map.segments);
-        const float place =
-            std::min(radiiMm[i / mMaterials.size()] / map.maxRadiusMm, 1.0f) * segments;
-        const float before = std::min(std::floor(place), segments - 1.0f);
-        slice.along = place - before;
-        const subedit::TexelRect changed = std::exchange(slice.changed, {});
-        if (const auto knot = static_cast<int>(before); knot != slice.knot) {
-            slice.knot = knot;
-            const subedit::TexelRect whole{0, 0, map.width, map.height};
-            slice.halves.resize(whole.texels() * kTexelHalves);
-            read(material, whole, source, slice);
-        } else if (!changed.isEmpty()) {
-            read(material, changed, source, slice);
+FarEnergies::Selection FarEnergies::select(std::span<const float> radiiMm, const Source& source) {
+    ++mSelected;
+    Selection selection;
+    for (const MaterialPointer& map : mMaterials) {
+        selection.mSizes.emplace_back(map->width, map->height);
+    }
+    for (const float radius : radiiMm) {
+        for (int material = 0; material < static_cast<int>(mMaterials.size()); ++material) {
+            const subedit::MaterialMap& map = mapOf(material);
+            const float place =
+                std::clamp(radius / map.maxRadiusMm, 0.0f, 1.0f) * static_cast<float>(map.segments);
+            const auto before = static_cast<int>(std::floor(place));
+            const auto after = static_cast<int>(std::ceil(place));
+            selection.mSlices.push_back({planeAt(material, before, source),
+                                         planeAt(material, after, source),
+                                         place - static_cast<float>(before)});
         }
     }
+    dropUnused();
+    return selection;
 }
 
-void FarEnergies::read(int material, const subedit::TexelRect& rect, const Read& source,
-                       Slice& slice) {
-    const auto width = static_cast<std::size_t>(mapOf(material).width);
-    const auto columns = static_cast<std::size_t>(rect.width);
-    mRead.resize(rect.texels() * 4);
-    for (const std::size_t side : {std::size_t{0}, std::size_t{1}}) {
-        source(material, slice.knot + static_cast<int>(side), rect, mRead);
-        for (std::size_t row = 0; row < static_cast<std::size_t>(rect.height); ++row) {
-            const std::size_t first =
-                (static_cast<std::size_t>(rect.y) + row) * width + static_cast<std::size_t>(rect.x);
-            std::uint16_t* to = slice.halves.data() + first * kTexelHalves + 4 * side;
-            const std::uint16_t* from = mRead.data() + row * columns * 4;
-            for (std::size_t i = 0; i < columns; ++i, to += kTexelHalves, from += 4) {
-                std::memcpy(to, from, 4 * sizeof(std::uint16_t));
-            }
-        }
-    }
-}
-
-Four FarEnergies::at(std::size_t radius, int material, glm::vec2 uv) const {
-    const std::size_t index = radius * mMaterials.size() + static_cast<std::size_t>(material);
-    CELADON_ASSERT(index < mSlices.size());
-    const Slice& slice = mSlices[index];
+const std::uint16_t* FarEnergies::planeAt(int material, int knot, const Source& source) {
     const subedit::MaterialMap& map = mapOf(material);
-    const subedit::RepeatTap x(uv.x, map.width);
-    const subedit::RepeatTap y(uv.y, map.height);
+    auto plane = std::ranges::find_if(mPlanes, [&](const Plane& other) {
+        return other.material == material && other.knot == knot;
+    });
+    if (plane == mPlanes.end()) {
+        const subedit::TexelRect whole{0, 0, map.width, map.height};
+        plane = mPlanes.insert(plane, {material, knot, 0, {}, {}});
+        plane->halves.resize(whole.texels() * kTexelHalves);
+        source(material, knot, whole, plane->halves);
+    }
+    plane->selected = mSelected;
+    for (const subedit::TexelRect& rect : std::exchange(plane->changed, {})) {
+        mRead.resize(rect.texels() * kTexelHalves);
+        source(material, knot, rect, mRead);
+        const std::size_t row = static_cast<std::size_t>(rect.width) * kTexelHalves;
+        for (int y = 0; y < rect.height; ++y) {
+            const auto to =
+                static_cast<std::size_t>(rect.y + y) * static_cast<std::size_t>(map.width) +
+                static_cast<std::size_t>(rect.x);
+            std::copy_n(mRead.data() + static_cast<std::size_t>(y) * row, row,
+                        plane->halves.data() + to * kTexelHalves);
+        }
+    }
+    return plane->halves.data();
+}
+
+void FarEnergies::dropUnused() {
+    std::size_t bytes = 0;
+    for (const Plane& plane : mPlanes) {
+        bytes += plane.halves.size() * sizeof(std::uint16_t);
+    }
+    while (bytes > kSpareBytes) {
+        const auto oldest = std::ranges::min_element(mPlanes, {}, &Plane::selected);
+        if (oldest->selected == mSelected) {
+            return;
+        }
+        bytes -= oldest->halves.size() * sizeof(std::uint16_t);
+        mPlanes.erase(oldest);
+    }
+}
+
+Four FarEnergies::Selection::at(std::size_t radius, int material, glm::vec2 uv) const {
+    const auto m = static_cast<std::size_t>(material);
+    CELADON_ASSERT(m < mSizes.size() && radius * mSizes.size() + m < mSlices.size());
+    const Slice& slice = mSlices[radius * mSizes.size() + m];
+    const glm::ivec2 size = mSizes[m];
+    const subedit::RepeatTap x(uv.x, size.x);
+    const subedit::RepeatTap y(uv.y, size.y);
     const auto texel = [&](int column, int row) {
-        const auto place = static_cast<std::size_t>(row) * static_cast<std::size_t>(map.width) +
-                           static_cast<std::size_t>(column);
-        const std::uint16_t* const halves = slice.halves.data() + place * kTexelHalves;
-        const Four here = fromHalves(halves);
-        return here + slice.along * (fromHalves(halves + 4) - here);
+        const std::size_t place =
+            (static_cast<std::size_t>(row) * static_cast<std::size_t>(size.x) +
+             static_cast<std::size_t>(column)) *
+            kTexelHalves;
+        const Four before = fromHalves(slice.before + place);
+        return before + slice.along * (fromHalves(slice.after + place) - before);
     };
     const auto row = [&](int at) {
         const Four left = texel(x.first, at);

@@ -41,7 +41,8 @@ inline float dot3(Four a, Four b) {
     return product[0] + product[1] + product[2];
 }
 
-/// e^x, relative error 3e-6 near 0, less than 2e-5 anywhere (Taylor series of 2^f, f in
+/// e^x for four lanes at once; subedit/fast_exp.h is for loops over many. NaN becomes e^-87.
+/// Relative error 3e-6 near 0, less than 2e-5 anywhere (Taylor series of 2^f, f in
 /// [-1/2, 1/2]); e^-87 below that, e^87 above.
 inline Four exponential(Four x) {
     constexpr float kToWhole = 12582912.0f; // 1.5 * 2^23: no fractions are left beside it

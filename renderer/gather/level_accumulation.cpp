@@ -31,7 +31,7 @@ void forRows(const ViewLevel& level, const Work& work) {
 
 /// What all pixels of one step share.
 struct Step {
-    const FarEnergies& energies;
+    const FarEnergies::Selection& energies;
     const AccumulationSettings& settings;
     std::size_t level;       ///< the coarser one
     const ViewLevel& coarse; ///< of it
@@ -107,9 +107,9 @@ private:
         const std::size_t after = level.indexOf(pixel + axis);
         const Four from = mStep.positionOf(before);
         const Four to = mStep.positionOf(after);
-        const Four step = from + to - 2.0f * loadFour(&level.positions[4 * i]);
+        const Four turn = from + to - 2.0f * loadFour(&level.positions[4 * i]);
         const Four chord = to - from;
-        if (from[3] <= 0.0f || to[3] <= 0.0f || dot3(step, step) > 0.25f * dot3(chord, chord)) {
+        if (from[3] <= 0.0f || to[3] <= 0.0f || dot3(turn, turn) > 0.25f * dot3(chord, chord)) {
             return Four{};
         }
         const Four here = loadFour(&mLight[4 * i]);
@@ -301,7 +301,8 @@ private:
 
 } // namespace
 
-void LevelAccumulation::accumulate(std::span<ViewLevel> levels, const FarEnergies& energies,
+void LevelAccumulation::accumulate(std::span<ViewLevel> levels,
+                                   const FarEnergies::Selection& energies,
                                    const AccumulationSettings& settings) {
     for (std::size_t k = levels.size() - 1; k > 0; --k) {
         const ViewLevel& coarse = levels[k];

@@ -21,8 +21,8 @@ struct AccumulationSettings {
 class LevelAccumulation {
 public:
     /// B^k += upsampled B^(k+1), from coarse to fine, in place; level 0 then has the exitance.
-    /// @param energies beyond the radii where each level's ring begins; radius 0 is 0
-    void accumulate(std::span<ViewLevel> levels, const FarEnergies& energies,
+    /// @param energies radius k is where level k's ring begins, mm; radius 0 is 0 mm
+    void accumulate(std::span<ViewLevel> levels, const FarEnergies::Selection& energies,
                     const AccumulationSettings& settings);
 
 private:

@@ -111,16 +111,15 @@ private:
             larger(gather::kRingLow * ringRadii(mLevel, depth - extent) - extent, none);
         const Four outermost = gather::kRingHigh * nextRings(depth + extent) + extent;
         const FourInts isReached = (nearest < square(mRangeMm + extent)) &
-                                    (square(innermost) <= farthest) &
-                                    (nearest <= square(outermost));
+                                   (square(innermost) <= farthest) & (nearest <= square(outermost));
         const Four start = ringRadii(mLevel, depth);
         const Four end = nextRings(depth);
         const FourInts isUsed = ball < SampleTree::kNeverUsed;
         const Four usedBall = isUsed ? ball : none;
         FourInts counts = isReached & isUsed & (nearest < range * range) &
-                           (farthest >= square(usedBall)) & (start < mRangeMm) &
-                           (farthest > square(gather::kRingLow * start)) &
-                           (nearest < square(gather::kRingHigh * end));
+                          (farthest >= square(usedBall)) & (start < mRangeMm) &
+                          (farthest > square(gather::kRingLow * start)) &
+                          (nearest < square(gather::kRingHigh * end));
         const Four fadeEnd = (1.0f + mSettings.fade) * usedBall;
         const FourInts isFading = nearest < square(fadeEnd);
         const FourInts descends = isReached & (ball > 0.0f) & (~isUsed | isFading);

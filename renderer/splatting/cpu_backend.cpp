@@ -48,17 +48,17 @@ std::size_t keptLights(int irradianceSize) {
     return irradianceSize <= 128 ? 16 : irradianceSize <= 256 ? 8 : irradianceSize <= 512 ? 2 : 1;
 }
 
-/// A level into memory that is kept from frame to frame.
-void read(const gl::Texture& texture, int level, std::vector<float>& texels) {
-    texels.resize(texture.texelCount(level) * static_cast<std::size_t>(texture.channels()));
-    texture.readLevel(level, std::span(texels));
+/// Level 0 into memory that is kept from frame to frame.
+void read(const gl::Texture& texture, std::vector<float>& texels) {
+    texels.resize(texture.texelCount(0) * static_cast<std::size_t>(texture.channels()));
+    texture.readLevel(0, std::span(texels));
 }
 
 /// The same of a part of it: x, y, width, height.
-void read(const gl::Texture& texture, int level, glm::ivec4 part, std::vector<float>& texels) {
+void read(const gl::Texture& texture, glm::ivec4 part, std::vector<float>& texels) {
     const glm::ivec3 extent(part.z, part.w, 1);
     texels.resize(static_cast<std::size_t>(extent.x * extent.y * texture.channels()));
-    texture.readRegion(level, glm::ivec3(part.x, part.y, 0), extent, std::span(texels));
+    texture.readRegion(0, glm::ivec3(part.x, part.y, 0), extent, std::span(texels));
 }
 
 /// x, y, width, height of what both cover, and of what lies between.
@@ -105,12 +105,11 @@ CpuBackend::CpuBackend(const gl::ShaderLibrary& shaders, std::span<const Materia
       mExitance(gl::Texture::make2d("exitance", GL_RGBA32F, view.paddedSize(), view.levels())),
       mView(static_cast<std::size_t>(view.levels())),
       mTiles(mView.size()),
-      mFarEnergies(materials),
       mLitPart(0, 0, view.paddedSize()),
       mLights(keptLights(settings.irradianceSize)) {}
 
 void CpuBackend::materialChanged(const MaterialChange& change) {
-    mFarEnergies.changed(change.material, change.rect);
+    mHasNewRadii = true;
     const bool hasNewCodes = mMaterials.admit(change.largestLogP);
     for (LightState& state : mLights) {
         addChange(state.changes, {change.material, change.rect});
@@ -132,10 +131,11 @@ void CpuBackend::begin(const SolveInput& input) {
         for (LightState& state : mLights) {
             state.isCurrent.clear();
         }
-    } else {
-        read(input.view.surfaces(), 0, mView[0].part, mView[0].surfaces);
+    } else if (mHasNewRadii) {
+        read(input.view.surfaces(), mView[0].part, mView[0].surfaces);
         copyRadiiUp(mView);
     }
+    mHasNewRadii = false;
     mGather.hierarchical = mSettings.scheme == Scheme::Hierarchical;
     mGather.multiresolution = mSettings.multiresolution;
     mGather.fade = static_cast<float>(mSettings.fade);
@@ -154,9 +154,9 @@ void CpuBackend::readView(const SplattingBuffer& view, float objectRadius) {
         const auto level = static_cast<int>(k);
         mView[k].part = partOfLevel(unite(mLitPart, mViewPart), level, mExitance.size2d(level));
     }
-    read(view.positions(), 0, mView[0].part, mView[0].positions);
-    read(view.normals(), 0, mView[0].part, mView[0].normals);
-    read(view.surfaces(), 0, mView[0].part, mView[0].surfaces);
+    read(view.positions(), mView[0].part, mView[0].positions);
+    read(view.normals(), mView[0].part, mView[0].normals);
+    read(view.surfaces(), mView[0].part, mView[0].surfaces);
     makeCoarserLevels(mView, float(SplattingBuffer::kClusterDepth) * 2.0f * objectRadius);
     for (std::size_t k = 0; k < mView.size(); ++k) {
         mTiles[k] = PixelTiles(mView[k].texels(nullptr), static_cast<int>(k));
@@ -187,18 +187,18 @@ bool CpuBackend::drawLight(const blocks::LightBlock& light, const SolveInput& in
     }
     if (isDrawn) {
         mIrradiance.refreshRadii(state.surfaces);
-        read(mIrradiance.extents(), 0, mRadii);
+        read(mIrradiance.extents(), mRadii);
         std::vector<float>& extents = state.texels[5];
         for (std::size_t i = 0; i < extents.size(); i += 4) {
             extents[i + 2] = mRadii[i + 2];
             extents[i + 3] = mRadii[i + 3];
         }
-        read(mIrradiance.kepts(), 0, state.texels[6]);
+        read(mIrradiance.kepts(), state.texels[6]);
         return true;
     }
     mIrradiance.draw(input.gpuWorld);
     for (int i = 0; i < IrradianceBuffer::kTargets; ++i) {
-        read(mIrradiance.target(i), 0, state.texels[static_cast<std::size_t>(i)]);
+        read(mIrradiance.target(i), state.texels[static_cast<std::size_t>(i)]);
     }
     const glm::ivec2 size = mIrradiance.surfaces().size2d();
     if (state.surfaces.id() == 0) {
@@ -313,16 +313,12 @@ void CpuBackend::accumulate(const SolveInput& input) {
         starts.push_back(mGather.hierarchical ? pixel / mGather.pixelAngle
                                               : R_P * input.materials.minimalRadius(R_P / pixel));
     }
-    mFarEnergies.setRadii(starts, [&](int material, int knot, const subedit::TexelRect& rect,
-                                      std::span<std::uint16_t> halves) {
-        input.materials.readFarEnergy(material, knot, rect, halves);
-    });
     AccumulationSettings settings;
     settings.sharpens = mGather.hierarchical;
     settings.pixelScale = mGather.pixelScale;
     settings.pixelOffset = mGather.pixelOffset;
     settings.objectRadius = object.w;
-    mAccumulation.accumulate(mView, mFarEnergies, settings);
+    mAccumulation.accumulate(mView, input.materials.selectFarEnergies(starts), settings);
 }
 
 void CpuBackend::finish(const SolveInput& input) {

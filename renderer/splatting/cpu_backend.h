@@ -1,6 +1,5 @@
 #pragma once
 
-#include "renderer/gather/far_energies.h"
 #include "renderer/gather/gather_materials.h"
 #include "renderer/gather/level_accumulation.h"
 #include "renderer/gather/pixel_tiles.h"
@@ -79,9 +78,9 @@ private:
     gl::Texture mExitance;
     std::vector<ViewLevel> mView;
     std::vector<PixelTiles> mTiles; ///< of each level
-    FarEnergies mFarEnergies;
     LevelAccumulation mAccumulation;
     std::uint64_t mViewDrawn = 0;    ///< SplattingBuffer::drawn() of mView
+    bool mHasNewRadii = false;       ///< since mView was read
     glm::ivec4 mViewPart{0};         ///< SplattingBuffer::bounds() then
     glm::ivec4 mLitPart;             ///< of level 0: elsewhere mExitance is 0
     std::vector<LightState> mLights; ///< more light views take turns, and keep nothing

@@ -3,8 +3,8 @@
 #include "renderer/exitance_solver.h"
 #include "renderer/splatting/light_views.h"
 
-/// Steps 1 (light side) to 4 of the paper as one exchangeable part: light views in, B of every pixel
-/// out. All backends have one meaning and agree to 1e-3.
+/// Steps 1 (light side) to 4 of the paper as one exchangeable part: light views in, B of every
+/// pixel out. All backends have one meaning and agree to 1e-3.
 namespace celadon {
 
 class SplatBackend {

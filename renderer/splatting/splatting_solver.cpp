@@ -145,6 +145,9 @@ void SplattingSolver::solveOnce(const SolveInput& input, gl::StageTimer& timer) 
             mBackend->count(mStatistics);
         }
     }
+    if (input.isInterrupted()) {
+        return;
+    }
     const auto scope = timer.measure("accumulation");
     mBackend->finish(input);
     if (mCollect) {

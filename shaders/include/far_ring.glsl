@@ -1,3 +1,5 @@
+// What all passes of the accumulation share. The cpu backend has the same in renderer/gather/level_accumulation.cpp and, of the
+// rings, in CpuBackend::accumulate().
 #include "include/bounds.glsl"
 #include "include/frame.glsl"
 #include "include/range_table.glsl"

@@ -1,4 +1,5 @@
 // Of accumulation.comp and accumulation_rough.comp: a pixel of the finer level, and the coarser level's light about it.
+// The cpu backend has the same in renderer/gather/level_accumulation.cpp.
 #include "include/far_ring.glsl"
 #include "include/listed_pixels.glsl"
 #include "include/material.glsl"

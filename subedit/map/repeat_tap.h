@@ -16,10 +16,10 @@ struct RepeatTap {
         const float once = isWithin ? coordinate : coordinate - std::floor(coordinate);
         // From the center before texel 0 on: what is cut off is the number of the second one.
         const float place = once * static_cast<float>(size) + 0.5f;
-        const int texel = std::min(static_cast<int>(place), size);
-        first = texel > 0 ? texel - 1 : size - 1;
-        second = texel < size ? texel : 0;
-        weight = place - static_cast<float>(texel);
+        const int after = std::clamp(static_cast<int>(place), 0, size);
+        first = after > 0 ? after - 1 : size - 1;
+        second = after < size ? after : 0;
+        weight = place - static_cast<float>(after);
     }
 };
 

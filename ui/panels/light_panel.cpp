@@ -83,12 +83,11 @@ void drawSelected(Session& session) {
         change("color", toJson(static_cast<double>(strength) * tint));
     }
     float rgb[3] = {float(tint.x), float(tint.y), float(tint.z)};
-    if (colorField("Color", rgb, "Linear color of the light; its strength is set above")) {
+    if (colorField("Color", rgb, "Linear color of the light; its strength is set above", true)) {
         const glm::dvec3 picked(rgb[0], rgb[1], rgb[2]);
-        const glm::dvec3 color =
-            strongest / std::max({picked.x, picked.y, picked.z, 1e-6}) * picked;
-        if (glm::distance(color, light.color) > 1e-5 * strongest) { // not only darker
-            change("color", toJson(color));
+        const double top = std::max({picked.x, picked.y, picked.z});
+        if (top > 0.0) { // black is no tint, and would put the light out
+            change("color", toJson(strongest / top * picked));
         }
     }
     if (light.kind != Light::Kind::Point) {

@@ -109,8 +109,9 @@ bool textField(const char* name, std::string& text, const char* help) {
     return isChanged;
 }
 
-bool colorField(const char* name, float rgb[3], const char* help) {
-    constexpr ImGuiColorEditFlags kPlain = ImGuiColorEditFlags_NoTooltip;
+bool colorField(const char* name, float rgb[3], const char* help, bool isTint) {
+    constexpr ImGuiColorEditFlags kPlain =
+        ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop;
     static ImVec4 original; // of the one picker that is open
     ImGui::PushID(name);
     label(name, help);
@@ -130,10 +131,17 @@ bool colorField(const char* name, float rgb[3], const char* help) {
     if (ImGui::BeginPopup("picker")) {
         if (ImGui::ColorPicker4("##picker", shown, kPlain | ImGuiColorEditFlags_NoAlpha,
                                 &original.x)) {
+            const float brightest = std::max({shown[0], shown[1], shown[2]});
+            for (float& part : shown) {
+                part = isTint ? part / std::max(brightest, 1e-6f) : part;
+            }
             // It says so as long as it is held, and what it gives back is not quite the same.
             isChanged = std::max({std::abs(shown[0] - now.x), std::abs(shown[1] - now.y),
-                                  std::abs(shown[2] - now.z)}) > 1e-3f;
-            std::transform(shown, shown + 3, rgb, decodeSrgb);
+                                  std::abs(shown[2] - now.z)}) > 1e-3f &&
+                        !(isTint && brightest <= 0.0f); // black is no tint
+            if (isChanged) {
+                std::transform(shown, shown + 3, rgb, decodeSrgb);
+            }
         }
         ImGui::EndPopup();
     }

@@ -1,11 +1,12 @@
-// Light of coarser levels on finer ones, by the processor. That it is what the shaders say is
-// tested on whole frames (splat_backends_test.cpp).
+// Light of coarser levels on finer ones, by the processor, and what that reads of materials. That
+// it is what the shaders say is tested on whole frames (splat_backends_test.cpp).
 #include "renderer/gather/level_accumulation.h"
 #include "tests/support/materials.h"
 
 #include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -64,14 +65,14 @@ struct Picture {
         for (std::size_t k = 1; k < radii.size(); ++k) {
             radii[k] = static_cast<float>(k);
         }
-        energies.setRadii(radii,
-                          [](int, int, const subedit::TexelRect&, std::span<std::uint16_t> halves) {
-                              std::fill(halves.begin(), halves.end(), std::uint16_t{0xbc00}); // -1
-                          });
+        const FarEnergies::Selection selection = energies.select(
+            radii, [](int, int, const subedit::TexelRect&, std::span<std::uint16_t> halves) {
+                std::ranges::fill(halves, std::uint16_t{0xbc00}); // -1
+            });
         AccumulationSettings settings;
         settings.pixelOffset = kPixelMm;
         settings.objectRadius = 10.0f;
-        LevelAccumulation().accumulate(levels, energies, settings);
+        LevelAccumulation().accumulate(levels, selection, settings);
     }
 
     std::vector<ViewLevel> levels;
@@ -168,6 +169,59 @@ TEST(LevelAccumulation, KnowsAPartOfThePictureOnly) {
                       whole.levels[0].exitance[4 * whole.levels[0].indexOf({x, y})]);
         }
     }
+}
+
+/// Far energies that tell what was read of them: each knot's value is its number.
+class Knots {
+public:
+    FarEnergies::Source source() {
+        return [this](int material, int knot, const subedit::TexelRect& rect,
+                      std::span<std::uint16_t> halves) {
+            constexpr std::uint16_t kSmall[] = {0x0000, 0x3c00, 0x4000, 0x4200, 0x4400, 0x4500,
+                                                0x4600, 0x4700, 0x4800, 0x4880, 0x4900, 0x4980};
+            EXPECT_EQ(halves.size(), 4 * rect.texels());
+            std::ranges::fill(halves, kSmall[knot + material]);
+            texels += static_cast<int>(rect.texels());
+        };
+    }
+    int texels = 0; ///< read
+};
+
+TEST(FarEnergies, ReadsWhatItLacksAndNoMore) {
+    const auto map = [](int size) {
+        return test::makeMaterial("flat", size, 10, 10.0f,
+                                  [](int, int) { return test::ProfileRecipe{}; });
+    };
+    FarEnergies energies(std::vector<MaterialPointer>{map(4), map(8)});
+    Knots knots;
+    const auto select = [&](std::vector<float> radii) {
+        knots.texels = 0;
+        return energies.select(radii, knots.source());
+    };
+    constexpr int kBoth = 16 + 64; // texels
+    const FarEnergies::Selection first = select({0.0f, 2.25f, 4.0f, 77.0f});
+    EXPECT_EQ(knots.texels, 5 * kBoth) << "knots 0, 2, 3, 4 and 10";
+    EXPECT_FLOAT_EQ(first.at(0, 0, {0.1f, 0.9f})[0], 0.0f);
+    EXPECT_FLOAT_EQ(first.at(1, 0, {0.1f, 0.9f})[1], 2.25f);
+    EXPECT_FLOAT_EQ(first.at(1, 1, {0.1f, 0.9f})[2], 3.25f);
+    EXPECT_FLOAT_EQ(first.at(3, 0, {0.5f, 0.5f})[0], 10.0f);
+    static_cast<void>(select({0.0f, 2.25f, 4.0f, 77.0f}));
+    EXPECT_EQ(knots.texels, 0);
+    static_cast<void>(select({0.0f, 3.5f, 2.0f}));
+    EXPECT_EQ(knots.texels, 0) << "another order of what is there";
+    static_cast<void>(select({0.0f, 4.5f}));
+    EXPECT_EQ(knots.texels, kBoth) << "knot 5";
+    energies.changed(1, {2, 3, 4, 2});
+    energies.changed(1, {3, 3, 2, 1}); // within the other
+    static_cast<void>(select({0.0f, 2.5f}));
+    EXPECT_EQ(knots.texels, 3 * 8) << "of knots 0, 2 and 3";
+    static_cast<void>(select({4.5f}));
+    EXPECT_EQ(knots.texels, 2 * 8) << "of knots 4 and 5, that were not asked for before";
+    for (int i = 0; i < 100; ++i) { // rather the whole than as many rectangles
+        energies.changed(0, {i % 4, i / 4 % 4, 1, 1});
+    }
+    static_cast<void>(select({0.0f}));
+    EXPECT_EQ(knots.texels, 16);
 }
 
 TEST(Four, ExponentialIsThatOfTheLibrary) {

@@ -60,14 +60,17 @@ protected:
         mLights = {test::frontLight({1.0, 0.8, 0.6})};
     }
 
-    /// Shifts ln P of every knot in a rectangle, as an albedo operator does.
-    void edit(const subedit::TexelRect& rect, float shift) {
+    /// Shifts ln P of every knot in a rectangle, as an albedo operator does, and the last by so
+    /// much more than the first, as one of ranges.
+    void edit(const subedit::TexelRect& rect, float shift, float tilt = 0.0f) {
         for (int y = rect.y; y < rect.bottom(); ++y) {
             for (int x = rect.x; x < rect.right(); ++x) {
                 for (int i = 0; i < 3 * mMap->knots(); ++i) {
                     float& value =
                         mMap->logProfile[mMap->index(x, y, 0) + static_cast<std::size_t>(i)];
-                    value = std::max(value + shift, subedit::kLogProfileFloor);
+                    const float along =
+                        static_cast<float>(i / 3) / static_cast<float>(mMap->segments);
+                    value = std::max(value + shift + along * tilt, subedit::kLogProfileFloor);
                 }
             }
         }
@@ -160,6 +163,18 @@ TEST_F(KeptLight, ASmallDabOfShortRangeGathersLittle) {
     drawAnew(&all);
     EXPECT_GT(gathered, 0u);
     EXPECT_LT(4 * gathered, all);
+}
+
+// The radii of what is seen, and the energies that the accumulation divides out, are kept as well.
+TEST_F(KeptLight, ShorterRangesAreWhatAnotherRendererFinds) {
+    open("builtin:vase", stripes(3.0));
+    draw();
+    for (const double x : {0.2, 0.45, 0.7}) {
+        edit(part(x, 0.1, 0.25, 0.8), 0.0f, -9.0f);
+        const std::vector<float> kept = draw();
+        mRenderer = std::make_unique<FrameRenderer>(context(), mScene, mSettings);
+        expectSame(kept, draw());
+    }
 }
 
 TEST_F(KeptLight, NothingChangedGathersNothing) {

@@ -81,15 +81,19 @@ TEST_F(ViewLevels, OfAPartAreThoseOfTheWhole) {
     const std::vector<ViewLevel> part = levelsOf({32, 16}, {64, 56});
     for (std::size_t k = 0; k < kLevels; ++k) {
         const glm::ivec4& in = part[k].part;
+        int covered = 0;
         for (int y = in.y; y < in.y + in.w; ++y) {
             for (int x = in.x; x < in.x + in.z; ++x) {
                 const std::size_t there = part[k].indexOf({x, y});
                 const std::size_t here = whole[k].indexOf({x, y});
                 for (std::size_t c = 0; c < 4; ++c) {
                     ASSERT_EQ(part[k].positions[4 * there + c], whole[k].positions[4 * here + c]);
+                    ASSERT_EQ(part[k].surfaces[4 * there + c], whole[k].surfaces[4 * here + c]);
                 }
+                covered += part[k].scatters(there) ? 1 : 0;
             }
         }
+        EXPECT_GT(covered, 4) << "level " << k;
         EXPECT_EQ(part[k].indexOf(glm::ivec2(in) - 1), ViewLevel::kNowhere);
         EXPECT_EQ(part[k].indexOf(glm::ivec2(in) + glm::ivec2(in.z, 0)), ViewLevel::kNowhere);
     }
@@ -97,16 +101,18 @@ TEST_F(ViewLevels, OfAPartAreThoseOfTheWhole) {
 
 TEST_F(ViewLevels, TakeNewRadiiFromTheFinest) {
     std::vector<ViewLevel> levels = levelsOf({0, 0}, mView.paddedSize());
-    const std::vector<ViewLevel> before = levels;
-    for (std::size_t i = 3; i < levels[0].surfaces.size(); i += 4) {
-        levels[0].surfaces[i] *= 2.0f;
+    for (std::size_t i = 0; i < levels[0].surfaces.size() / 4; ++i) {
+        levels[0].surfaces[4 * i + 3] = static_cast<float>(i); // none like another
     }
     copyRadiiUp(levels);
     for (std::size_t k = 1; k < kLevels; ++k) {
         for (std::size_t i = 0; i < levels[k].seenAs.size(); ++i) {
-            if (levels[k].scatters(i)) {
-                ASSERT_EQ(levels[k].surfaces[4 * i + 3], 2.0f * before[k].surfaces[4 * i + 3]);
+            if (!levels[k].scatters(i)) {
+                continue;
             }
+            const auto seen = static_cast<std::size_t>(levels[k].surfaces[4 * i + 3]);
+            ASSERT_EQ(levels[k].surfaces[4 * i], levels[0].surfaces[4 * seen]);
+            ASSERT_EQ(levels[k].surfaces[4 * i + 1], levels[0].surfaces[4 * seen + 1]);
         }
     }
 }
