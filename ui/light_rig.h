@@ -21,6 +21,8 @@ struct RigLight {
     Light light; ///< position in mm; color includes the strength
     /// Which of the model's lights it is: it goes along with the animation until it is moved.
     std::optional<std::size_t> followed = std::nullopt;
+
+    [[nodiscard]] bool operator==(const RigLight&) const = default;
 };
 
 /// An environment map, kept as it was read, and how much of it is used.

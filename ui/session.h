@@ -236,7 +236,6 @@ private:
     void keepChoice(const DeformerStack& before);
     /// @return the same part as it was
     SettingPart set(const SettingPart& part);
-    LightRig setLights(const LightRig& lights);
     /// Sets what a step had before it, and tells the history that it was done.
     Undone exchange(const SettingPart& part, void (SettingHistory::*confirm)(SettingPart));
     void addStep(SettingPart before, const std::string& title, bool continues);

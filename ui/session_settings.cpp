@@ -3,8 +3,24 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace celadon::ui {
+
+namespace {
+
+/// The first that is not as it was, to be looked at; else the one that was chosen. Always one that
+/// there is, or 0.
+int changedLight(const std::vector<RigLight>& before, const std::vector<RigLight>& now,
+                 int chosen) {
+    const auto first = std::ranges::mismatch(before, now);
+    if (first.in1 != before.end() || first.in2 != now.end()) {
+        chosen = static_cast<int>(first.in2 - now.begin());
+    }
+    return std::clamp(chosen, 0, std::max(0, static_cast<int>(now.size()) - 1));
+}
+
+} // namespace
 
 void Session::addStep(SettingPart before, const std::string& title, bool continues) {
     mSettingHistory.add(std::move(before), title, editCount(), continues);
@@ -51,23 +67,6 @@ Camera Session::turnLights(double degrees) {
     return turned;
 }
 
-LightRig Session::setLights(const LightRig& lights) {
-    LightRig before = std::exchange(rig, lights);
-    selectedLight =
-        std::clamp(selectedLight, 0, std::max(0, static_cast<int>(rig.lights.size()) - 1));
-    followAnimation();
-    // Those that went along with the animation all the time stay where they are.
-    for (RigLight& item : rig.lights) {
-        const auto same = std::ranges::find(before.lights, item.followed, &RigLight::followed);
-        if (item.followed && same != before.lights.end()) {
-            item.light.position = same->light.position;
-            item.light.direction = same->light.direction;
-        }
-    }
-    touchPicture();
-    return before;
-}
-
 SettingPart Session::set(const SettingPart& part) {
     if (const auto* const moved = std::get_if<MotionPart>(&part)) {
         const MotionSetting before = motion.now;
@@ -77,8 +76,7 @@ SettingPart Session::set(const SettingPart& part) {
     }
     if (const auto* const lights = std::get_if<LightRig>(&part)) {
         LightRig before = std::exchange(rig, *lights);
-        selectedLight =
-            std::clamp(selectedLight, 0, std::max(0, static_cast<int>(rig.lights.size()) - 1));
+        selectedLight = changedLight(before.lights, rig.lights, selectedLight);
         followAnimation();
         touchPicture();
         return before;

@@ -93,6 +93,8 @@ struct Light {
     glm::dvec3 color{1.0}; ///< W/m^2 on a plane that faces it (directional), or W/sr (point, spot)
     double innerConeRadians = 0.0; ///< half angles (spot), inner < outer <= pi/2
     double outerConeRadians = 0.7853981633974483;
+
+    [[nodiscard]] bool operator==(const Light&) const = default;
 };
 
 struct Scene {

@@ -721,6 +721,22 @@ TEST_F(SessionTest, LightsProfilesAndStrokesAreUndoneInOneRow) {
     EXPECT_EQ(settings, (std::vector<bool>{true, false, true}));
 }
 
+TEST_F(SessionTest, UndoShowsTheLightThatItChanges) {
+    session.execute({"light.preset", {{"name", "studio"}}});
+    ASSERT_GE(session.rig.lights.size(), 2u);
+    const std::size_t last = session.rig.lights.size() - 1;
+    session.execute({"light.change", {{"light", last}, {"color", {3.0, 2.0, 1.0}}}});
+    session.execute({"light.select", {{"light", 0}}});
+    session.execute({"edit.undo"});
+    EXPECT_EQ(session.selectedLight, static_cast<int>(last));
+    session.execute({"light.remove", {{"light", last}}});
+    EXPECT_LT(session.selectedLight, static_cast<int>(last));
+    session.execute({"edit.undo"}); // it comes back
+    EXPECT_EQ(session.selectedLight, static_cast<int>(last));
+    session.execute({"edit.redo"});
+    EXPECT_EQ(session.selectedLight, static_cast<int>(last) - 1);
+}
+
 TEST_F(SessionTest, UndoFollowsProfilesAndLightsThatWentOn) {
     const auto knot = [](const NamedProfile& profile) { return profile.profile.logProfile[3 * 4]; };
     const float before = knot(session.paint.primary);
