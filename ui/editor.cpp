@@ -202,7 +202,7 @@ void Editor::setActions() {
     mActions.cancelJobs = [this] { cancelJobs(); };
     mActions.toggleFullScreen = [this] { mWindow.toggleFullScreen(); };
     mActions.togglePlay = [this] { mPlayback.toggle(); };
-    mActions.toggleTurntable = [this] { mLayout.isTurning = !mLayout.isTurning; };
+    mActions.toggleTurntable = [this] { mPlayback.toggleTurntable(); };
     mActions.quit = [this] {
         if (mRecovery.isRunning()) {
             mSession.notify(Notice::Kind::Info, "A recovery is under way, and soon done");

@@ -37,7 +37,7 @@ void Playback::toggle() {
             {"motion.play",
              {{"on", !motion.isPlaying}, {"seconds", isOver ? 0.0 : motion.now.seconds}}});
     } else {
-        mLayout.isTurning = !mLayout.isTurning;
+        toggleTurntable();
     }
 }
 

@@ -18,6 +18,7 @@ public:
     bool advance(bool isInputWaiting);
     /// Plays, or stops at the moment that is shown; where nothing changes over time, the turntable.
     void toggle();
+    void toggleTurntable() { mLayout.isTurning = !mLayout.isTurning; }
 
 private:
     Session& mSession;

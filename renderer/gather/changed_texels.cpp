@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 
 namespace celadon {
 
 namespace {
+
+/// Rectangles of edits that are told apart until they are brought up to date.
+constexpr std::size_t kMostChanges = 48;
 
 /// Maps repeat.
 int around(int i, int size) {
@@ -19,6 +24,27 @@ int texelOf(float t, int size) {
 }
 
 } // namespace
+
+void addChange(std::vector<TexelChange>& changes, const TexelChange& added) {
+    TexelChange* closest = nullptr;
+    std::size_t leastGrowth = std::numeric_limits<std::size_t>::max();
+    for (TexelChange& change : changes) {
+        if (change.material != added.material) {
+            continue;
+        }
+        const std::size_t growth = unite(change.rect, added.rect).texels() - change.rect.texels();
+        if (growth < leastGrowth) {
+            leastGrowth = growth;
+            closest = &change;
+        }
+    }
+    const bool isFull = changes.size() >= kMostChanges;
+    if (closest != nullptr && (isFull || leastGrowth <= added.rect.texels() / 2)) {
+        closest->rect = unite(closest->rect, added.rect);
+    } else {
+        changes.push_back(added);
+    }
+}
 
 ChangedTexels::ChangedTexels(const GatherMaterials& materials,
                              std::span<const TexelChange> changes) {

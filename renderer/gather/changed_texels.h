@@ -16,6 +16,10 @@ struct TexelChange {
     subedit::TexelRect rect;
 };
 
+/// A stroke touches several charts, far from each other on the map: when there are too many
+/// rectangles, one that grows least takes the new one in.
+void addChange(std::vector<TexelChange>& changes, const TexelChange& added);
+
 /// Where on the materials' maps a profile is no longer what it was.
 class ChangedTexels {
 public:

@@ -12,8 +12,6 @@ namespace celadon {
 namespace {
 
 constexpr std::size_t kTexelHalves = 4; ///< R, G, B and one unused
-/// Rectangles that are kept apart, since those of a stroke may be far from each other.
-constexpr std::size_t kMostRects = 48;
 /// What is not asked for just now is kept while all is no more than this: the next picture may be
 /// of another size.
 constexpr std::size_t kSpareBytes = std::size_t{64} << 20;
@@ -37,15 +35,11 @@ FarEnergies::FarEnergies(std::span<const MaterialPointer> materials)
     : mMaterials(materials.begin(), materials.end()) {}
 
 void FarEnergies::changed(int material, const subedit::TexelRect& rect) {
-    std::erase_if(mPlanes, [&](Plane& plane) {
-        if (plane.material != material) {
-            return false;
+    for (Plane& plane : mPlanes) {
+        if (plane.material == material) {
+            addChange(plane.changed, {material, rect});
         }
-        if (plane.changed.empty() || unite(plane.changed.back(), rect) != plane.changed.back()) {
-            plane.changed.push_back(rect);
-        }
-        return plane.changed.size() > kMostRects; // it is read anew when it is asked for
-    });
+    }
 }
 
 FarEnergies::Selection FarEnergies::select(std::span<const float> radiiMm, const Source& source) {
@@ -82,7 +76,8 @@ const std::uint16_t* FarEnergies::planeAt(int material, int knot, const Source& 
         source(material, knot, whole, plane->halves);
     }
     plane->selected = mSelected;
-    for (const subedit::TexelRect& rect : std::exchange(plane->changed, {})) {
+    for (const TexelChange& change : std::exchange(plane->changed, {})) {
+        const subedit::TexelRect& rect = change.rect;
         mRead.resize(rect.texels() * kTexelHalves);
         source(material, knot, rect, mRead);
         const std::size_t row = static_cast<std::size_t>(rect.width) * kTexelHalves;

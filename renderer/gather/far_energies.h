@@ -1,5 +1,6 @@
 #pragma once
 
+#include "renderer/gather/changed_texels.h"
 #include "renderer/gather/four.h"
 #include "renderer/scene/world.h"
 #include "subedit/map/texel_rect.h"
@@ -51,9 +52,9 @@ private:
     /// What a material has at a knot.
     struct Plane {
         int material, knot;
-        std::uint64_t selected;                  ///< when it was used last
-        std::vector<subedit::TexelRect> changed; ///< since it was read
-        std::vector<std::uint16_t> halves;       ///< [height][width][4]
+        std::uint64_t selected;            ///< when it was used last
+        std::vector<TexelChange> changed;  ///< since it was read
+        std::vector<std::uint16_t> halves; ///< [height][width][4]
     };
     const std::uint16_t* planeAt(int material, int knot, const Source& source);
     void dropUnused();

@@ -35,12 +35,11 @@ struct WeighedTexels {
 };
 
 using subedit::Eight;
-/// Of two neighboring knots: R, G, B and nothing of each. In a load of eight numbers they begin
-/// with the first, or end with the last.
-constexpr std::int32_t kNothing = 0;
 using EightPlaces = std::int32_t __attribute__((vector_size(32)));
-constexpr EightPlaces kAtFirst{0, 1, 2, kNothing, 3, 4, 5, kNothing};
-constexpr EightPlaces kAtLast{2, 3, 4, kNothing, 5, 6, 7, kNothing};
+/// Where R, G, B and anything of two neighboring knots are in a load of eight numbers, which begin
+/// with the first, or end with the last.
+constexpr EightPlaces kAtFirst{0, 1, 2, 0, 3, 4, 5, 0};
+constexpr EightPlaces kAtLast{2, 3, 4, 0, 5, 6, 7, 0};
 
 [[gnu::always_inline]] inline void blend(const WeighedTexels& texels, std::size_t at, Eight& sum) {
     sum = Eight{};

@@ -2,32 +2,15 @@
 
 #include "renderer/gather/four.h"
 
-#include <oneapi/tbb/parallel_for.h>
+#include <glm/common.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 namespace celadon {
 
 namespace {
-
-constexpr int kRowsATask = 8;
-
-float smoothStep(float from, float to, float x) {
-    const float t = std::clamp((x - from) / (to - from), 0.0f, 1.0f);
-    return t * t * (3.0f - 2.0f * t);
-}
-
-template<class Work>
-void forRows(const ViewLevel& level, const Work& work) {
-    tbb::parallel_for(tbb::blocked_range<int>(0, level.part.w, kRowsATask), [&](const auto& rows) {
-        for (int row = rows.begin(); row < rows.end(); ++row) {
-            work(row);
-        }
-    });
-}
 
 /// What all pixels of one step share.
 struct Step {
@@ -43,7 +26,7 @@ struct Step {
     }
     /// See far_ring.glsl.
     [[nodiscard]] static float smoothness(float R_P, float width) {
-        return smoothStep(2.5f, 5.0f, R_P / width);
+        return glm::smoothstep(2.5f, 5.0f, R_P / width);
     }
     /// Of a material and others: -ln of their similarity.
     [[nodiscard]] Four difference(float R_P, Four others) const {
@@ -208,7 +191,7 @@ private:
         if (squared <= kSmooth * kSmooth * o.width * o.width) {
             return 0.0f;
         }
-        return smoothStep(kSmooth, 0.3f, std::sqrt(squared) / o.width);
+        return glm::smoothstep(kSmooth, 0.3f, std::sqrt(squared) / o.width);
     }
 
     [[nodiscard]] Four interpolate(const Point& o, const Corners& corners) const {
@@ -308,14 +291,14 @@ void LevelAccumulation::accumulate(std::span<ViewLevel> levels,
         const ViewLevel& coarse = levels[k];
         const Step step{energies, settings, k, coarse};
         mLight.resize(coarse.positions.size());
-        forRows(coarse, [&](int row) { findLight(step, row, mLight); });
+        forEachRow(coarse, [&](int row) { findLight(step, row, mLight); });
         if (settings.sharpens) {
             mSharpened.resize(mLight.size());
             const Sharpening sharpening(step, mLight);
-            forRows(coarse, [&](int row) { sharpening.sharpen(row, mSharpened); });
+            forEachRow(coarse, [&](int row) { sharpening.sharpen(row, mSharpened); });
         }
         const Upsampling upsampling(step, settings.sharpens ? mSharpened : mLight, levels[k - 1]);
-        forRows(levels[k - 1], [&](int row) { upsampling.addTo(row); });
+        forEachRow(levels[k - 1], [&](int row) { upsampling.addTo(row); });
     }
 }
 

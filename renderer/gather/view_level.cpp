@@ -11,8 +11,6 @@ namespace celadon {
 
 namespace {
 
-constexpr int kRowsATask = 8;
-
 /// Pixels of the finer level in one of the coarser, those that scatter, by depth.
 struct Children {
     std::array<std::size_t, 4> index;
@@ -74,6 +72,15 @@ void makeRow(const ViewLevel& finer, float clusterMm, int row, ViewLevel& level)
 
 } // namespace
 
+void forEachRow(const ViewLevel& level, const std::function<void(int row)>& work) {
+    constexpr int kRowsATask = 8;
+    tbb::parallel_for(tbb::blocked_range<int>(0, level.part.w, kRowsATask), [&](const auto& rows) {
+        for (int row = rows.begin(); row < rows.end(); ++row) {
+            work(row);
+        }
+    });
+}
+
 void makeCoarserLevels(std::span<ViewLevel> levels, float clusterMm) {
     for (std::size_t k = 1; k < levels.size(); ++k) {
         ViewLevel& level = levels[k];
@@ -84,12 +91,7 @@ void makeCoarserLevels(std::span<ViewLevel> levels, float clusterMm) {
             values->resize(4 * pixels);
         }
         level.seenAs.resize(pixels);
-        tbb::parallel_for(tbb::blocked_range<int>(0, level.part.w, kRowsATask),
-                          [&](const auto& rows) {
-                              for (int row = rows.begin(); row < rows.end(); ++row) {
-                                  makeRow(levels[k - 1], clusterMm, row, level);
-                              }
-                          });
+        forEachRow(level, [&](int row) { makeRow(levels[k - 1], clusterMm, row, level); });
     }
 }
 

@@ -5,6 +5,7 @@
 #include <glm/vec4.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -36,6 +37,9 @@ struct ViewLevel {
         return {{part.z, part.w}, positions.data(), surfaces.data(), sums};
     }
 };
+
+/// Calls `work` for each row of the part, on all cores.
+void forEachRow(const ViewLevel& level, const std::function<void(int row)>& work);
 
 /// Of each 2 x 2 the one of median depth, as shaders/median_mip.comp has it.
 /// @param levels level 0 filled, of the others the parts

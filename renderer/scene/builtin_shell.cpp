@@ -8,6 +8,7 @@
 #include "renderer/scene/chart_packing.h"
 #include "renderer/scene/surface_builder.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
@@ -42,11 +43,6 @@ constexpr double kHollowFrom = -kTurn * kHollowTurns;
 
 /// The mouth opens towards a viewer 30 degrees to the right of +z, as the default view has it.
 constexpr double kMouthAzimuth = -glm::pi<double>() / 6.0;
-
-double smoothStep(double low, double high, double x) {
-    const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
-}
 
 /// Closes a tube like a quarter ellipse: 0 at `from`, 1 from `from + length` on.
 double closing(double theta, double from, double length) {
@@ -98,14 +94,14 @@ private:
 
     /// Of the outside without its blades, mm.
     [[nodiscard]] static double tubeRadius(double theta) {
-        const double flare = 1.0 + 0.22 * std::pow(smoothStep(-0.40, 0.0, theta), 1.5);
+        const double flare = 1.0 + 0.22 * std::pow(glm::smoothstep(-0.40, 0.0, theta), 1.5);
         return kTubeRadius * scaleMm(theta) * closing(theta, kApex, 0.9) * flare;
     }
 
     /// Of the cavity, mm: thin walls at the mouth, thicker the further back.
     [[nodiscard]] static double cavityRadius(double theta) {
-        const double back = smoothStep(0.0, -0.75 * kHollowFrom, -theta);
-        const double wall = kWall * (1.0 - 0.45 * smoothStep(-0.30, 0.0, theta)) + 0.10 * back;
+        const double back = glm::smoothstep(0.0, -0.75 * kHollowFrom, -theta);
+        const double wall = kWall * (1.0 - 0.45 * glm::smoothstep(-0.30, 0.0, theta)) + 0.10 * back;
         return tubeRadius(theta) * (1.0 - wall) * closing(theta, kHollowFrom, 1.2);
     }
 
@@ -120,8 +116,8 @@ private:
         const double thin = std::exp(-std::pow(distance / 0.032, 2.0));
         const double foot = std::exp(-std::pow(distance / 0.09, 2.0));
         const double blade = kBladeHeight * shoulder * (0.84 * thin + 0.16 * foot);
-        return blade * smoothStep(kApex, kApex + kTurn, theta) *
-               (1.0 - smoothStep(-0.20, -0.05, theta));
+        return blade * glm::smoothstep(kApex, kApex + kTurn, theta) *
+               (1.0 - glm::smoothstep(-0.20, -0.05, theta));
     }
 
     [[nodiscard]] static glm::dvec3 onTube(const Frame& frame, double radius, double phi) {

@@ -10,6 +10,7 @@
 #include "renderer/scene/profile_curve.h"
 #include "renderer/scene/surface_builder.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
@@ -30,11 +31,6 @@ static_assert(kTileSegments % 2 == 0, "diamonds in odd rows stand half a width t
 constexpr double kStation = 0.8; ///< mm between rows of vertices on the outside
 constexpr double kChartMargin = 4.0;
 
-double smoothStep(double low, double high, double x) {
-    const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
-    return t * t * (3.0 - 2.0 * t);
-}
-
 double bump(double distance, double width) {
     return std::exp(-(distance * distance) / (width * width));
 }
@@ -54,7 +50,7 @@ double petalHeight(double x, double y, double halfWidth, double height) {
         return 0.0;
     }
     const double across = std::abs(x) / width;
-    const double step = smoothStep(0.0, 2.0, inside);
+    const double step = glm::smoothstep(0.0, 2.0, inside);
     const double hollow = 0.55 + 0.45 * along - 0.35 * (1.0 - across * across) * (1.0 - along);
     const double border = 0.34 * bump(inside - 1.7, 0.9);
     const double vein = 0.25 * bump(x, 0.8) * (1.0 - along);
@@ -115,8 +111,8 @@ private:
 
     [[nodiscard]] double thickness(double v) const {
         const double t = v / mOuter.length();
-        const double foot = 2.6 * (1.0 - smoothStep(0.0, 0.4, t));
-        const double lip = 1.6 * smoothStep(0.72, 1.0, t);
+        const double foot = 2.6 * (1.0 - glm::smoothstep(0.0, 0.4, t));
+        const double lip = 1.6 * glm::smoothstep(0.72, 1.0, t);
         return 3.1 + foot - lip;
     }
 
@@ -139,7 +135,7 @@ private:
         // Two rows of petals below, each two tiles wide, the back row between those of the front.
         const double below = mPiercedFrom - 1.5;
         if (v > mFootTo - 2.0 && v < below) {
-            const double rise = smoothStep(mFootTo - 2.0, mFootTo + 2.0, v);
+            const double rise = glm::smoothstep(mFootTo - 2.0, mFootTo + 2.0, v);
             const double y = (v - mFootTo) / (below - mFootTo);
             const double front = fromMiddle(0.5 * tile) * 2.0 * tileWidth;
             const double back = fromMiddle(0.5 * tile + 0.5) * 2.0 * tileWidth;
@@ -149,7 +145,7 @@ private:
         // One row of lappets on the shoulder, tips down.
         const double above = mPiercedTo + 1.5;
         if (v > above && v < mShoulderTo + 1.0) {
-            const double fall = 1.0 - smoothStep(mShoulderTo - 1.0, mShoulderTo + 1.0, v);
+            const double fall = 1.0 - glm::smoothstep(mShoulderTo - 1.0, mShoulderTo + 1.0, v);
             const double y = (mShoulderTo - v) / (mShoulderTo - above);
             const double front = fromMiddle(tile) * tileWidth;
             const double back = fromMiddle(tile + 0.5) * tileWidth;
@@ -170,17 +166,17 @@ private:
             const double dv = 0.5 * (p - q) * mDiamondHeight;
             const double across =
                 tileWidth * mDiamondHeight / std::hypot(tileWidth, mDiamondHeight);
-            const double inBand = smoothStep(mPiercedFrom - 0.2, mPiercedFrom + 1.0, v) *
-                                  (1.0 - smoothStep(mPiercedTo - 1.0, mPiercedTo + 0.2, v));
+            const double inBand = glm::smoothstep(mPiercedFrom - 0.2, mPiercedFrom + 1.0, v) *
+                                  (1.0 - glm::smoothstep(mPiercedTo - 1.0, mPiercedTo + 0.2, v));
             height += inBand * 0.45 * bump(across * std::min(std::abs(p), std::abs(q)), 1.0);
-            height += 1.0 * (1.0 - smoothStep(0.2, 2.1, std::hypot(du, dv)));
+            height += 1.0 * (1.0 - glm::smoothstep(0.2, 2.1, std::hypot(du, dv)));
         }
         return height;
     }
 
     /// Sideways sway of the whole wall: the mouth opens like a mallow flower, in nine lobes.
     [[nodiscard]] double foliation(double u, double v) const {
-        const double rise = smoothStep(0.86 * mOuter.length(), mOuter.length(), v);
+        const double rise = glm::smoothstep(0.86 * mOuter.length(), mOuter.length(), v);
         return 0.9 * rise * std::cos(9.0 * glm::two_pi<double>() * std::fmod(u, kAround) / kAround);
     }
 

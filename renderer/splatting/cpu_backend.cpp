@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,32 +15,6 @@ namespace celadon {
 namespace {
 
 constexpr double kWattsPerUnit = 1e-6; ///< flux is kept in W/m^2 times mm^2
-
-/// Rectangles of edits that are told apart between two solves.
-constexpr std::size_t kMostChanges = 48;
-
-/// A stroke touches several charts, far from each other on the map: when there are too many
-/// rectangles, one that grows least takes the new one in.
-void addChange(std::vector<TexelChange>& changes, const TexelChange& added) {
-    TexelChange* closest = nullptr;
-    std::size_t leastGrowth = std::numeric_limits<std::size_t>::max();
-    for (TexelChange& change : changes) {
-        if (change.material != added.material) {
-            continue;
-        }
-        const std::size_t growth = unite(change.rect, added.rect).texels() - change.rect.texels();
-        if (growth < leastGrowth) {
-            leastGrowth = growth;
-            closest = &change;
-        }
-    }
-    const bool isFull = changes.size() >= kMostChanges;
-    if (closest != nullptr && (isFull || leastGrowth <= added.rect.texels() / 2)) {
-        closest->rect = unite(closest->rect, added.rect);
-    } else {
-        changes.push_back(added);
-    }
-}
 
 /// Light views whose state is worth its memory: some 100 MB at 512 x 512 texels.
 std::size_t keptLights(int irradianceSize) {
@@ -122,12 +95,13 @@ void CpuBackend::materialChanged(const MaterialChange& change) {
 
 void CpuBackend::begin(const SolveInput& input) {
     mGatheredPairs = 0;
+    mObject = input.gpuWorld.readBounds().scattering;
     for (ViewLevel& level : mView) {
         level.exitance.clear();
     }
     if (mViewDrawn != input.view.drawn()) {
         mViewDrawn = input.view.drawn();
-        readView(input.view, input.gpuWorld.readBounds().scattering.w);
+        readView(input.view);
         for (LightState& state : mLights) {
             state.isCurrent.clear();
         }
@@ -148,7 +122,7 @@ void CpuBackend::begin(const SolveInput& input) {
     };
 }
 
-void CpuBackend::readView(const SplattingBuffer& view, float objectRadius) {
+void CpuBackend::readView(const SplattingBuffer& view) {
     mViewPart = view.bounds();
     for (std::size_t k = 0; k < mView.size(); ++k) {
         const auto level = static_cast<int>(k);
@@ -157,7 +131,7 @@ void CpuBackend::readView(const SplattingBuffer& view, float objectRadius) {
     read(view.positions(), mView[0].part, mView[0].positions);
     read(view.normals(), mView[0].part, mView[0].normals);
     read(view.surfaces(), mView[0].part, mView[0].surfaces);
-    makeCoarserLevels(mView, float(SplattingBuffer::kClusterDepth) * 2.0f * objectRadius);
+    makeCoarserLevels(mView, float(SplattingBuffer::kClusterDepth) * 2.0f * mObject.w);
     for (std::size_t k = 0; k < mView.size(); ++k) {
         mTiles[k] = PixelTiles(mView[k].texels(nullptr), static_cast<int>(k));
     }
@@ -211,17 +185,15 @@ bool CpuBackend::drawLight(const blocks::LightBlock& light, const SolveInput& in
     return false;
 }
 
-void CpuBackend::buildTree(const blocks::LightBlock& light, const SolveInput& input,
-                           LightState& state, const SampleTree* before,
-                           const ChangedTexels& changed) {
+void CpuBackend::buildTree(const blocks::LightBlock& light, LightState& state,
+                           const SampleTree* before, const ChangedTexels& changed) {
     TreeSettings settings;
     settings.hierarchical = mSettings.scheme == Scheme::Hierarchical;
     settings.levels = mSettings.adaptive ? mSettings.irradianceLevels : 1;
     settings.adaptive = mSettings.adaptive;
     settings.cutEnergy = mSettings.energy;
     settings.alpha = static_cast<float>(mSettings.alpha);
-    settings.discontinuityMm =
-        static_cast<float>(mSettings.discontinuity) * input.gpuWorld.readBounds().scattering.w;
+    settings.discontinuityMm = static_cast<float>(mSettings.discontinuity) * mObject.w;
     settings.orientation = mSettings.orientation;
     settings.texelScale = light.cone.z;
     settings.texelOffset = light.cone.w;
@@ -262,7 +234,7 @@ void CpuBackend::add(const SolveInput& input, const LightViews& lightViews, int 
             std::swap(state.tree, state.before);
             state.tree.takeWorkspace(state.before);
         }
-        buildTree(light, input, state, hasSums && isKept ? &state.before : nullptr, changed);
+        buildTree(light, state, hasSums && isKept ? &state.before : nullptr, changed);
     }
     gather(state, {state.before, changed}, input, timer);
 }
@@ -300,12 +272,11 @@ void CpuBackend::gather(LightState& state, const Since& since, const SolveInput&
 }
 
 void CpuBackend::accumulate(const SolveInput& input) {
-    const glm::vec4 object = input.gpuWorld.readBounds().scattering;
     const PixelWidth& width = input.camera.pixelWidth;
     // Rings of the mean material at mean depth, as far_ring.glsl has them.
     const CameraFrame& frame = input.camera.frame;
     const double depth =
-        std::max(glm::dot(glm::dvec3(object) - input.camera.eye, frame.forward), 1e-3);
+        std::max(glm::dot(glm::dvec3(mObject) - input.camera.eye, frame.forward), 1e-3);
     std::vector<float> starts(1, 0.0f);
     for (std::size_t k = 1; k < mView.size(); ++k) {
         const auto pixel = float((depth * width.scale + width.offset) * double(1 << k));
@@ -317,7 +288,7 @@ void CpuBackend::accumulate(const SolveInput& input) {
     settings.sharpens = mGather.hierarchical;
     settings.pixelScale = mGather.pixelScale;
     settings.pixelOffset = mGather.pixelOffset;
-    settings.objectRadius = object.w;
+    settings.objectRadius = mObject.w;
     mAccumulation.accumulate(mView, input.materials.selectFarEnergies(starts), settings);
 }
 

@@ -59,8 +59,8 @@ private:
     bool drawLight(const blocks::LightBlock& light, const SolveInput& input, LightState& state);
     [[nodiscard]] LightTexels lightTexels(const LightState& state) const;
     /// @param before, changed  see SampleTree::build()
-    void buildTree(const blocks::LightBlock& light, const SolveInput& input, LightState& state,
-                   const SampleTree* before, const ChangedTexels& changed);
+    void buildTree(const blocks::LightBlock& light, LightState& state, const SampleTree* before,
+                   const ChangedTexels& changed);
     /// Since the sums were gathered.
     struct Since {
         const SampleTree& before;
@@ -68,7 +68,7 @@ private:
     };
     void gather(LightState& state, const Since& since, const SolveInput& input,
                 gl::StageTimer& timer);
-    void readView(const SplattingBuffer& view, float objectRadius);
+    void readView(const SplattingBuffer& view);
     void accumulate(const SolveInput& input);
 
     SplattingSettings mSettings;
@@ -76,6 +76,7 @@ private:
     GatherMaterials mMaterials;
     GatherSettings mGather;
     gl::Texture mExitance;
+    glm::vec4 mObject{0.0f}; ///< bounding sphere of what scatters, of this solve, mm
     std::vector<ViewLevel> mView;
     std::vector<PixelTiles> mTiles; ///< of each level
     LevelAccumulation mAccumulation;

@@ -85,10 +85,7 @@ void drawSelected(Session& session) {
     float rgb[3] = {float(tint.x), float(tint.y), float(tint.z)};
     if (colorField("Color", rgb, "Linear color of the light; its strength is set above", true)) {
         const glm::dvec3 picked(rgb[0], rgb[1], rgb[2]);
-        const double top = std::max({picked.x, picked.y, picked.z});
-        if (top > 0.0) { // black is no tint, and would put the light out
-            change("color", toJson(strongest / top * picked));
-        }
+        change("color", toJson(strongest / std::max({picked.x, picked.y, picked.z}) * picked));
     }
     if (light.kind != Light::Kind::Point) {
         float azimuth =

@@ -137,8 +137,7 @@ bool colorField(const char* name, float rgb[3], const char* help, bool isTint) {
             }
             // It says so as long as it is held, and what it gives back is not quite the same.
             isChanged = std::max({std::abs(shown[0] - now.x), std::abs(shown[1] - now.y),
-                                  std::abs(shown[2] - now.z)}) > 1e-3f &&
-                        !(isTint && brightest <= 0.0f); // black is no tint
+                                  std::abs(shown[2] - now.z)}) > 1e-3f;
             if (isChanged) {
                 std::transform(shown, shown + 3, rgb, decodeSrgb);
             }
@@ -146,7 +145,8 @@ bool colorField(const char* name, float rgb[3], const char* help, bool isTint) {
         ImGui::EndPopup();
     }
     ImGui::PopID();
-    return isChanged;
+    const bool isBlack = std::max({rgb[0], rgb[1], rgb[2]}) <= 0.0f;
+    return isChanged && !(isTint && isBlack);
 }
 
 int choiceRow(const char* id, const char* const* labels, const char* const* helps, int count,

@@ -19,7 +19,7 @@ bool sliderField(const char* label, int& value, int least, int most, const char*
 /// Something to be typed; taken when the field is left.
 bool textField(const char* label, std::string& text, const char* help);
 /// @param rgb linear; the swatch and its picker show it as a screen does
-/// @param isTint  only ratios count: what is picked is as bright as can be
+/// @param isTint  only ratios count: what is picked is as bright as can be, and never black
 bool colorField(const char* label, float rgb[3], const char* help, bool isTint = false);
 /// A row of words of which one is chosen. @return index that was clicked, -1: none
 int choiceRow(const char* id, const char* const* labels, const char* const* helps, int count,
