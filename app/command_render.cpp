@@ -327,6 +327,9 @@ private:
         }
         if (!mRenderer) {
             mScene = std::make_shared<const GpuScene>(mWorld, mSettings);
+            for (const std::string& warning : mScene->fitted.warnings()) {
+                log::warning("{}", warning);
+            }
             mRenderer = std::make_unique<FrameRenderer>(mContext, mScene, mSettings);
             if (mMotion.moves()) {
                 mDeformation =

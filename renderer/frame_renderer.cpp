@@ -83,9 +83,17 @@ std::vector<double> directLightKey(const Camera& camera, std::span<const Light> 
 GpuScene::GpuScene(const World& theWorld, const FrameSettings& settings, const MakingProgress& tell)
     : world(theWorld),
       gpuWorld(theWorld, settings.rasterizer),
-      materials(theWorld.materials, settings.splatting.energy, settings.splatting.epsilon,
+      fitted(theWorld.materials, GpuMaterials::hasRoom),
+      materials(fitted.maps(), settings.splatting.energy, settings.splatting.epsilon,
                 settings.exitFresnel, tell, settings.splatting.rangeTable) {
     shaders.define(sceneDefines(theWorld, gpuWorld.rasterizer()));
+}
+
+MaterialChange GpuScene::materialChanged(int material, const subedit::TexelRect& rect) {
+    const MaterialChange change =
+        fitted.update(material, *world.materials[static_cast<std::size_t>(material)], rect);
+    materials.update(material, *fitted.maps()[static_cast<std::size_t>(material)], change.rect);
+    return change;
 }
 
 struct FrameRenderer::Passes {
@@ -113,8 +121,8 @@ struct FrameRenderer::Passes {
         switch (settings.solver) {
         case SolverKind::Splatting:
             settings.splatting.backend = resolveBackend(settings.splatting.backend, glContext);
-            solver = std::make_unique<SplattingSolver>(shaders, world.materials, materials, view,
-                                                       settings.splatting);
+            solver = std::make_unique<SplattingSolver>(shaders, scene->fitted.maps(), materials,
+                                                       view, settings.splatting);
             break;
         case SolverKind::ImageReference:
             solver = std::make_unique<ImageReferenceSolver>(

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "renderer/exitance_solver.h"
+#include "renderer/fitted_materials.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/shader_library.h"
 #include "renderer/gpu_materials.h"
@@ -65,10 +66,15 @@ struct GpuScene {
     /// @throws ContextError, InputError
     GpuScene(const World& theWorld, const FrameSettings& settings, const MakingProgress& tell = {});
 
+    /// Texels of a material of the world were edited in place.
+    /// @return what every renderer's solver is to be told: ExitanceSolver::materialChanged()
+    [[nodiscard]] MaterialChange materialChanged(int material, const subedit::TexelRect& rect);
+
     const World& world;
     gl::ShaderLibrary shaders;
     GpuWorld gpuWorld;
-    GpuMaterials materials;
+    FittedMaterials fitted;
+    GpuMaterials materials; ///< of fitted.maps()
 };
 
 class FrameRenderer {
@@ -90,7 +96,7 @@ public:
     /// The same for a window: nothing is read back, and what depends on neither camera nor lights
     /// that moved is kept: the visible surface, highlights and, on the cpu backend, the scattered
     /// light that no change of a material reaches. Whoever moves vertices says so with
-    /// geometryChanged(), whoever edits a material with ExitanceSolver::materialChanged().
+    /// geometryChanged(), whoever edits a material with GpuScene::materialChanged().
     /// @param interrupt see SolveInput; may be null
     /// @return RGBA32F, rows from the bottom, linear radiance, premultiplied; valid until the next
     ///         call. Null when interrupted.

@@ -18,6 +18,8 @@ namespace {
 /// Texture units of material.glsl.
 enum Unit : GLuint { kTables = 8, kFarEnergy = 9 };
 
+constexpr GLenum kTablesFormat = GL_RGBA32F;
+constexpr GLenum kFarEnergyFormat = GL_RGBA16F;
 constexpr float kLog2TMax = 12.0f;
 constexpr int kBorder = 1;      ///< texels around a map, so that filtering finds its other side
 constexpr int kExtraLayers = 3; ///< beyond the knots: radii, kept energy, specular lobe
@@ -60,13 +62,21 @@ std::vector<float> lobeSlice(const subedit::MaterialMap& map, const subedit::Tex
     return slice;
 }
 
-MaterialSlots slotsOf(std::span<const MaterialPointer> materials) {
+/// @param sizes width, height and knots of each
+MaterialSlots slotsOf(std::span<const glm::ivec3> sizes) {
+    std::vector<glm::ivec3> slots;
+    for (const glm::ivec3& size : sizes) {
+        slots.push_back(size + glm::ivec3(2 * kBorder, 2 * kBorder, kExtraLayers));
+    }
+    return arrangeMaterials(slots);
+}
+
+std::vector<glm::ivec3> sizesOf(std::span<const MaterialPointer> materials) {
     std::vector<glm::ivec3> sizes;
     for (const MaterialPointer& map : materials) {
-        sizes.emplace_back(map->width + 2 * kBorder, map->height + 2 * kBorder,
-                           map->knots() + kExtraLayers);
+        sizes.emplace_back(map->width, map->height, map->knots());
     }
-    return arrangeMaterials(sizes);
+    return sizes;
 }
 
 void checkSize(std::span<const MaterialPointer> materials, const glm::ivec3& extent) {
@@ -134,15 +144,15 @@ void repeatAtBorder(const gl::Texture& texture, const glm::ivec3& corner, glm::i
 GpuMaterials::GpuMaterials(std::span<const MaterialPointer> materials, double energy,
                            double epsilon, ExitFresnel exitFresnel, const MakingProgress& tell,
                            std::span<const float> rangeTable)
-    : mSlots(slotsOf(materials)),
+    : mSlots(slotsOf(sizesOf(materials))),
       mHeldFarEnergies(materials),
       mMapSampler("material map", gl::Filter::Linear),
       mTableSampler("range table", gl::Filter::Linear),
       mEnergy(energy) {
     checkSize(materials, mSlots.extent);
-    mTables =
-        gl::Texture::makeArray("materials", GL_RGBA32F, glm::ivec2(mSlots.extent), mSlots.extent.z);
-    mFarEnergy = gl::Texture::makeArray("far energy of materials", GL_RGBA16F,
+    mTables = gl::Texture::makeArray("materials", kTablesFormat, glm::ivec2(mSlots.extent),
+                                     mSlots.extent.z);
+    mFarEnergy = gl::Texture::makeArray("far energy of materials", kFarEnergyFormat,
                                         glm::ivec2(mSlots.extent), mSlots.extent.z);
     const glm::vec2 texel = 1.0f / glm::vec2(mSlots.extent);
     std::vector<blocks::MaterialEntry> entries;
@@ -192,6 +202,12 @@ GpuMaterials::GpuMaterials(std::span<const MaterialPointer> materials, double en
     mBlock = gl::Buffer::of("materials", entries);
     mCommonKnots = celadon::commonKnots(materials);
     mHomogeneous = materials.size() == 1 && materials[0]->isHomogeneous();
+}
+
+bool GpuMaterials::hasRoom(std::span<const glm::ivec3> sizes) {
+    const glm::ivec3 extent = slotsOf(sizes).extent;
+    return gl::Texture::canMakeArray(kTablesFormat, glm::ivec2(extent), extent.z) &&
+           gl::Texture::canMakeArray(kFarEnergyFormat, glm::ivec2(extent), extent.z);
 }
 
 void GpuMaterials::update(int material, const subedit::MaterialMap& map,

@@ -34,6 +34,10 @@ public:
                  ExitFresnel exitFresnel, const MakingProgress& tell = {},
                  std::span<const float> rangeTable = {});
 
+    /// Whether the driver's textures hold them all at once.
+    /// @param sizes width, height and knots of each
+    [[nodiscard]] static bool hasRoom(std::span<const glm::ivec3> sizes);
+
     /// Texels of a rectangle have changed. Neither size nor layout of the map may have; the range
     /// table and the means stay as they were made.
     /// @param map as it is now

@@ -31,6 +31,9 @@ public:
     /// The same bits, where only the first knot is another than it was.
     void computeFirst();
 
+    /// P at the knots, channel fastest, of what was computed last.
+    [[nodiscard]] const float* values() const { return mValue.data(); }
+
     static constexpr int kLanes = 8;
     [[nodiscard]] static constexpr int wholeVectors(int count) {
         return (count + kLanes - 1) / kLanes * kLanes;

@@ -36,21 +36,27 @@ FrameSettings settingsOf(const PictureRequest& request) {
     return settings;
 }
 
+/// Texels of one material.
+struct Edited {
+    int material = 0;
+    subedit::TexelRect rect;
+};
+
 /// Dabs of a stroke overlap, and many come between two pictures: what lies within the rectangles of
 /// two is worked on once.
-void addChange(std::vector<MaterialChange>& changes, MaterialChange added) {
-    for (auto other = changes.begin(); other != changes.end();) {
+void addEdited(std::vector<Edited>& all, Edited added) {
+    for (auto other = all.begin(); other != all.end();) {
         const subedit::TexelRect both = unite(other->rect, added.rect);
         if (other->material == added.material &&
             both.texels() <= other->rect.texels() + added.rect.texels()) {
-            added = {added.material, both, std::max(added.largestLogP, other->largestLogP)};
-            changes.erase(other);
-            other = changes.begin(); // it may reach others now
+            added.rect = both;
+            all.erase(other);
+            other = all.begin(); // it may reach others now
         } else {
             ++other;
         }
     }
-    changes.push_back(added);
+    all.push_back(added);
 }
 
 /// A quality's other settings follow from these.
@@ -85,6 +91,7 @@ void PictureRenderers::setWorld(std::shared_ptr<const World> world,
     mWorld = std::move(world);
     mMotion = std::make_unique<Motion>(*mWorld);
     mMaterials = std::move(materials);
+    mTold.clear();
 }
 
 bool PictureRenderers::prepare(const std::function<bool(float done)>& goesOn) {
@@ -149,6 +156,10 @@ void PictureRenderers::makeScene(const MakingProgress& tell) {
     mScene = std::make_shared<GpuScene>(*mWorld, frameSettings(Quality::Default), tell);
     mToneMap = std::make_unique<ToneMapPass>(mScene->shaders);
     mViewMode = std::make_unique<ViewModePass>(mScene->shaders, mScene->materials.count());
+    if (mScene->fitted.warnings() != mTold) { // it may be made again, after an operator say
+        mTold = mScene->fitted.warnings();
+        mUntold.insert(mUntold.end(), mTold.begin(), mTold.end());
+    }
 }
 
 void PictureRenderers::apply(const SelectionWeights& selection) {
@@ -158,7 +169,7 @@ void PictureRenderers::apply(const SelectionWeights& selection) {
 }
 
 void PictureRenderers::apply(const std::deque<MaterialPatch>& patches) {
-    std::vector<MaterialChange> changes;
+    std::vector<Edited> edited;
     for (const MaterialPatch& patch : patches) {
         subedit::MaterialMap& map = *mMaterials[static_cast<std::size_t>(patch.material)];
         if (patch.whole) {
@@ -166,24 +177,19 @@ void PictureRenderers::apply(const std::deque<MaterialPatch>& patches) {
             dropScene();
             continue;
         }
-        float largestLogP = subedit::kLogProfileFloor;
-        for (const float value : patch.logProfile) {
-            largestLogP = std::max(largestLogP, value);
-        }
         const float* from = patch.logProfile.data();
         const auto row =
             static_cast<std::size_t>(patch.rect.width) * static_cast<std::size_t>(map.knots()) * 3;
         for (int y = patch.rect.y; y < patch.rect.bottom(); ++y, from += row) {
             std::copy_n(from, row, map.logProfile.data() + map.index(patch.rect.x, y, 0));
         }
-        addChange(changes, {patch.material, patch.rect, largestLogP});
+        addEdited(edited, {patch.material, patch.rect});
     }
     if (!mScene) { // it will be made of what the maps are now
         return;
     }
-    for (const MaterialChange& change : changes) {
-        const subedit::MaterialMap& map = *mMaterials[static_cast<std::size_t>(change.material)];
-        mScene->materials.update(change.material, map, change.rect);
+    for (const auto& [material, rect] : edited) {
+        const MaterialChange change = mScene->materialChanged(material, rect);
         for (const Ready& entry : mReady) {
             entry.renderer->solver().materialChanged(change);
         }

@@ -11,6 +11,8 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 /// What lives on the context of the picture's thread: the world on the GPU, and renderers of the
@@ -31,6 +33,8 @@ public:
     [[nodiscard]] bool prepare(const std::function<bool(float done)>& goesOn);
     void apply(const std::deque<MaterialPatch>& patches);
     void apply(const SelectionWeights& selection);
+    /// What is to be said of how the scene is shown.
+    [[nodiscard]] std::vector<std::string> takeWarnings() { return std::exchange(mUntold, {}); }
     /// After an error nothing is known of their state: they are made anew.
     void dropRenderers() { mReady.clear(); }
 
@@ -72,6 +76,8 @@ private:
     std::unique_ptr<ToneMapPass> mToneMap;
     std::unique_ptr<ViewModePass> mViewMode;
     std::map<int, gl::Texture> mSelections; ///< by material
+    std::vector<std::string> mTold;         ///< warnings of this world
+    std::vector<std::string> mUntold;
 };
 
 } // namespace celadon::ui

@@ -4,8 +4,10 @@
 #include "subedit/errors.h"
 #include "ui/picture_renderers.h"
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
+#include <iterator>
 #include <utility>
 
 namespace celadon::ui {
@@ -86,6 +88,11 @@ std::optional<std::string> PictureWorker::takeError() {
     return std::exchange(mError, std::nullopt);
 }
 
+std::vector<std::string> PictureWorker::takeWarnings() {
+    const std::lock_guard lock(mMutex);
+    return std::exchange(mWarnings, {});
+}
+
 void PictureWorker::run() {
     std::unique_ptr<gl::Context> context;
     std::optional<PictureRenderers> renderers;
@@ -144,6 +151,9 @@ void PictureWorker::run() {
         }
         if (problem) {
             mError = std::move(problem);
+        }
+        if (renderers) {
+            std::ranges::move(renderers->takeWarnings(), std::back_inserter(mWarnings));
         }
         lock.unlock();
         mNotify();

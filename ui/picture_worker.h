@@ -45,6 +45,8 @@ public:
     [[nodiscard]] std::optional<Picture> takePicture();
     /// One line; what could not be rendered and why.
     [[nodiscard]] std::optional<std::string> takeError();
+    /// A line each: what pictures do not show as it is.
+    [[nodiscard]] std::vector<std::string> takeWarnings();
 
 private:
     void run();
@@ -62,6 +64,7 @@ private:
     std::optional<PictureRequest> mRequest;
     std::optional<Picture> mPicture;
     std::optional<std::string> mError;
+    std::vector<std::string> mWarnings;
     std::atomic<bool> mInterrupt = false;
     std::atomic<float> mTablesMade = -1.0f; ///< below 0: none are being made
     std::thread mThread;                    ///< last: everything above exists when it starts

@@ -50,6 +50,9 @@ Viewport::Viewport(PictureWorker& worker, double budgetMs)
       mFinestRung(static_cast<int>(mLadder.rungs().size()) - 1) {}
 
 bool Viewport::takePicture(Session& session) {
+    for (const std::string& warning : mWorker.takeWarnings()) {
+        session.notify(Notice::Kind::Warning, warning);
+    }
     if (std::optional<std::string> error = mWorker.takeError()) {
         session.notify(Notice::Kind::Error, "The picture cannot be rendered: " + *error);
         mInFlight.reset();

@@ -88,6 +88,20 @@ Texture Texture::makeMultisampled(std::string_view label, GLenum internalFormat,
     return make(label, GL_TEXTURE_2D_MULTISAMPLE, internalFormat, glm::ivec3(size, 1), 1, samples);
 }
 
+bool Texture::canMakeArray(GLenum internalFormat, glm::ivec2 size, int layers) {
+    constexpr GLenum kProxy = GL_PROXY_TEXTURE_2D_ARRAY;
+    const glm::ivec3 largest = largestSize(GL_TEXTURE_2D_ARRAY);
+    if (size.x > largest.x || size.y > largest.y || layers > largest.z) {
+        return false;
+    }
+    const PixelFormat format = pixelFormat(internalFormat);
+    glTexImage3D(kProxy, 0, static_cast<GLint>(internalFormat), size.x, size.y, layers, 0,
+                 format.clientFormat, format.nativeType, nullptr);
+    GLint width = 0;
+    glGetTexLevelParameteriv(kProxy, 0, GL_TEXTURE_WIDTH, &width);
+    return width == size.x;
+}
+
 Texture Texture::make(std::string_view label, GLenum target, GLenum internalFormat, glm::ivec3 size,
                       int levels, int samples) {
     CELADON_ASSERT(size.x > 0 && size.y > 0 && size.z > 0 && levels > 0);

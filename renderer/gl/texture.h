@@ -45,6 +45,8 @@ public:
                                         glm::ivec2 size, int levels = 1);
     [[nodiscard]] static Texture makeArray(std::string_view label, GLenum internalFormat,
                                            glm::ivec2 size, int layers, int levels = 1);
+    /// Whether makeArray() has a chance: what the driver knows without trying. Nothing is allocated.
+    [[nodiscard]] static bool canMakeArray(GLenum internalFormat, glm::ivec2 size, int layers);
     /// Several samples a pixel at fixed places, to be drawn to and fetched, nothing else; one
     /// level. The driver may give more samples, see samples(), up to its limits.
     [[nodiscard]] static Texture makeMultisampled(std::string_view label, GLenum internalFormat,

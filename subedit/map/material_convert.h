@@ -12,10 +12,8 @@ struct ConvertSettings {
     double maxRadiusMm = 0.0; ///< r_s; 0 keeps
 };
 
-/// Larger maps interpolate ln P as rendering does; smaller ones take the mean of P over each
-/// texel's footprint. Either way a texel's albedo is the mean (or the interpolation) of the albedos
-/// it comes from. Other segments and another r_s fit each profile anew and keep its albedo: a
-/// smaller r_s gives the energy beyond it back, nearer.
+/// Another size is resizeMaterial(). Other segments and another r_s fit each profile anew and keep
+/// its albedo: a smaller r_s gives the energy beyond it back, nearer.
 [[nodiscard]] MaterialMap convertMaterial(const MaterialMap& map, const ConvertSettings& settings);
 
 } // namespace celadon::subedit

@@ -74,8 +74,7 @@ protected:
                 }
             }
         }
-        mScene->materials.update(0, *mMap, rect);
-        mRenderer->solver().materialChanged({0, rect, *std::ranges::max_element(mMap->logProfile)});
+        mRenderer->solver().materialChanged(mScene->materialChanged(0, rect));
     }
 
     std::vector<float> draw(std::uint64_t* gathered = nullptr) {

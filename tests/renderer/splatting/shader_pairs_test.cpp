@@ -359,6 +359,16 @@ TEST_F(ShaderPairs, MaterialsTellHowFarTheyAre) {
                  Enough);
 }
 
+TEST_F(ShaderPairs, MaterialsKnowWhetherTheyHaveRoom) {
+    GLint side = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
+    EXPECT_TRUE(GpuMaterials::hasRoom(std::array{glm::ivec3(64, 64, 49), glm::ivec3(1, 1, 257)}));
+    EXPECT_FALSE(GpuMaterials::hasRoom(std::array{glm::ivec3(side, 1, 49)})); // with its border
+    if (context().isSoftware()) { // within its limits, and 300 gigabytes
+        EXPECT_FALSE(GpuMaterials::hasRoom(std::array{glm::ivec3(side - 2, side - 2, 257)}));
+    }
+}
+
 TEST_F(ShaderPairs, RangeTable) {
     const MaterialPointer material = test::chessboardMaterial();
     const GpuMaterials materials(std::array{material}, 0.99, 0.01, ExitFresnel::Exact);
