@@ -8,8 +8,8 @@
 #include "app/option_takers.h"
 #include "app/progress.h"
 #include "app/render_options.h"
-#include "renderer/output/atomic_file.h"
 #include "renderer/splatting/splatting_solver.h"
+#include "subedit/atomic_file.h"
 #include "subedit/errors.h"
 
 #include <CLI/CLI.hpp>

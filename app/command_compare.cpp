@@ -3,8 +3,8 @@
 #include "app/comparison.h"
 #include "app/log.h"
 #include "app/overwriting.h"
-#include "renderer/output/atomic_file.h"
 #include "renderer/output/image_io.h"
+#include "subedit/atomic_file.h"
 #include "subedit/errors.h"
 
 #include <CLI/CLI.hpp>

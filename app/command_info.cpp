@@ -1,7 +1,7 @@
 #include "app/command_info.h"
 
 #include "app/option_takers.h"
-#include "renderer/output/atomic_file.h"
+#include "subedit/atomic_file.h"
 #include "subedit/errors.h"
 
 #include <CLI/CLI.hpp>

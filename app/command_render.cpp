@@ -8,10 +8,10 @@
 #include "renderer/environment_background.h"
 #include "renderer/frame_renderer.h"
 #include "renderer/gpu_deformation.h"
-#include "renderer/output/atomic_file.h"
 #include "renderer/output/image_io.h"
 #include "renderer/output/tone_map.h"
 #include "renderer/scene/camera.h"
+#include "subedit/atomic_file.h"
 #include "subedit/errors.h"
 #include "subedit/map/range_table_file.h"
 #include "subedit/map/shipped_materials.h"
@@ -171,9 +171,9 @@ void writePicture(const RenderOptions& options, const std::filesystem::path& fil
     writeDisplayImage(file, toDisplay(image, display));
 }
 
-/// A black picture is never silent.
-void explainDarkness(const World& world, const Camera& camera, const RenderedFrame& frame,
-                     const RenderOptions& options) {
+/// A black picture is never silent, nor one of infinities.
+void explainLight(const World& world, const Camera& camera, const RenderedFrame& frame,
+                  const RenderOptions& options) {
     const CameraView view = makeCameraView(camera, options.size.x, options.size.y);
     if (isOutsideView(view, world.sceneSphere)) {
         log::warning(
@@ -192,7 +192,10 @@ void explainDarkness(const World& world, const Camera& camera, const RenderedFra
             sum += static_cast<double>(frame.image.pixels[i + c]);
         }
     }
-    if (sum <= 0.0) {
+    if (!std::isfinite(sum)) {
+        log::warning("values of the picture are beyond all numbers: lights or environment are too "
+                     "bright");
+    } else if (sum <= 0.0) {
         log::warning(
             "no light reaches the visible surface: check the direction, position and color "
             "of the lights");
@@ -271,7 +274,7 @@ public:
         frame.stats.milliseconds.deformation = deformationMs;
         frame.stats.milliseconds.total += deformationMs;
         const World& shown = mPosed ? *mPosed : mWorld;
-        explainDarkness(shown, camera, frame, mOptions);
+        explainLight(shown, camera, frame, mOptions);
         if (frame.seesScattering) {
             warnAboutRadius(shown, frame.stats);
         }

@@ -2,7 +2,7 @@
 
 #include "app/plot/chart.h"
 #include "app/plot/write_plot.h"
-#include "renderer/output/atomic_file.h"
+#include "subedit/atomic_file.h"
 #include "subedit/errors.h"
 
 #include <fmt/format.h>

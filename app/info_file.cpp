@@ -3,12 +3,12 @@
 #include "app/log.h"
 #include "app/overwriting.h"
 #include "app/render_scene.h"
-#include "renderer/output/atomic_file.h"
 #include "renderer/scene/atlas.h"
 #include "renderer/scene/describe_scene.h"
 #include "renderer/scene/load_bytes.h"
 #include "renderer/scene/load_deformers.h"
 #include "renderer/scene/write_obj.h"
+#include "subedit/atomic_file.h"
 #include "subedit/errors.h"
 #include "subedit/map/shipped_materials.h"
 

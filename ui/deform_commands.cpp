@@ -2,9 +2,9 @@
 // in files (renderer/scene/README.md), except where they say "Mm". What has keys changes at
 // `seconds`, or at the moment that is shown; "continues" makes one step of a change and the one
 // before.
-#include "renderer/output/atomic_file.h"
 #include "renderer/scene/load_bytes.h"
 #include "renderer/scene/load_deformers.h"
+#include "subedit/atomic_file.h"
 #include "subedit/errors.h"
 #include "ui/session.h"
 

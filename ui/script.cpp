@@ -1,6 +1,6 @@
 #include "ui/script.h"
 
-#include "renderer/output/atomic_file.h"
+#include "subedit/atomic_file.h"
 #include "subedit/errors.h"
 
 #include <fstream>

@@ -1,7 +1,7 @@
 #include "ui/turntable.h"
 
 #include "renderer/frame_quality.h"
-#include "renderer/output/atomic_file.h"
+#include "subedit/atomic_file.h"
 #include "ui/picture_file.h"
 #include "ui/viewport.h"
 #include "ui/world_snapshot.h"

@@ -2,10 +2,10 @@
 
 #include "renderer/frame_quality.h"
 #include "renderer/frame_renderer.h"
-#include "renderer/output/atomic_file.h"
 #include "renderer/output/image_compare.h"
 #include "renderer/scene/builtin.h"
 #include "renderer/scene/light.h"
+#include "subedit/atomic_file.h"
 #include "subedit/errors.h"
 #include "subedit/recipes/recipes.h"
 

@@ -1,8 +1,8 @@
 // A small program for a machine that has a GPU driver and nothing else (app/core/README.md).
 #include "app/argument.h"
 #include "app/core/core_bench.h"
-#include "renderer/output/atomic_file.h"
 #include "renderer/scene/builtin.h"
+#include "subedit/atomic_file.h"
 #include "subedit/errors.h"
 #include "subedit/recipes/recipes.h"
 

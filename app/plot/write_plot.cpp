@@ -2,8 +2,8 @@
 
 #include "app/plot/rasterize.h"
 #include "app/plot/svg.h"
-#include "renderer/output/atomic_file.h"
 #include "renderer/output/image_io.h"
+#include "subedit/atomic_file.h"
 #include "subedit/errors.h"
 
 #include <algorithm>

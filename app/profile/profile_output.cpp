@@ -1,7 +1,7 @@
 #include "app/profile/profile_output.h"
 
 #include "app/log.h"
-#include "renderer/output/atomic_file.h"
+#include "subedit/atomic_file.h"
 #include "subedit/errors.h"
 #include "subedit/medium.h"
 

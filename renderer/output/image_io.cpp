@@ -1,7 +1,7 @@
 #include "renderer/output/image_io.h"
 
-#include "renderer/output/atomic_file.h"
 #include "renderer/output/tone_map.h"
+#include "subedit/atomic_file.h"
 #include "subedit/errors.h"
 
 #include <OpenImageIO/filesystem.h>

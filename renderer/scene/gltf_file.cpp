@@ -1,10 +1,12 @@
 #include "renderer/scene/gltf_file.h"
 
+#include "subedit/atomic_file.h"
 #include "subedit/errors.h"
-#include "subedit/pending_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include <span>
 
 namespace celadon::loaders {
 
@@ -72,24 +74,25 @@ std::size_t appendView(json& document, std::string& buffer, std::string_view byt
 void writeGltfFile(json document, const std::string& buffer, const std::filesystem::path& file) {
     document.erase("buffers");
     if (buffer.empty()) {
-        subedit::writeTextFile(file, file.extension() == ".glb" ? binaryGltf(document, std::nullopt)
-                                                                : textOf(document, 1) + "\n");
+        writeFileAtomically(file, file.extension() == ".glb" ? binaryGltf(document, std::nullopt)
+                                                             : textOf(document, 1) + "\n");
         return;
     }
     json only = {{"byteLength", buffer.size()}};
     if (file.extension() == ".glb") {
         document["buffers"] = json::array({only});
-        subedit::writeTextFile(file, binaryGltf(document, buffer));
+        writeFileAtomically(file, binaryGltf(document, buffer));
         return;
     }
     only["uri"] = escaped(bufferBeside(file).filename().string());
     document["buffers"] = json::array({only});
-    subedit::PendingFile pendingBuffer(bufferBeside(file));
-    subedit::PendingFile pending(file);
-    subedit::writeTextFile(pendingBuffer.temporaryPath(), buffer);
-    subedit::writeTextFile(pending.temporaryPath(), textOf(document, 1) + "\n");
-    pendingBuffer.commit();
-    pending.commit();
+    AtomicFile bufferTarget(bufferBeside(file));
+    AtomicFile target(file);
+    bufferTarget.write(std::as_bytes(std::span(buffer)));
+    const std::string text = textOf(document, 1) + "\n";
+    target.write(std::as_bytes(std::span(text)));
+    bufferTarget.commit();
+    target.commit();
 }
 
 std::filesystem::path bufferBeside(const std::filesystem::path& file) {

@@ -1,10 +1,10 @@
 #include "subedit/map/material_file.h"
 
 #include "subedit/assert.h"
+#include "subedit/atomic_file.h"
 #include "subedit/errors.h"
 #include "subedit/map/exr_header.h"
 #include "subedit/map/half_rounding.h"
-#include "subedit/pending_file.h"
 #include "subedit/radius_map.h"
 
 #include <OpenImageIO/imageio.h>
@@ -374,7 +374,7 @@ MaterialMap readMaterial(const fs::path& file, std::vector<std::string>* warning
 
 void writeMaterial(const MaterialMap& map, const fs::path& file, StoredPrecision precision) {
     checkMap(map);
-    PendingFile pending(file);
+    AtomicFile target(file);
     const auto fail = [&](const std::string& reason) {
         throw OutputError(fmt::format("'{}'", file.string()), "cannot be written: " + reason);
     };
@@ -384,13 +384,12 @@ void writeMaterial(const MaterialMap& map, const fs::path& file, StoredPrecision
     if (extension != ".exr") {
         fail("the name does not end in .exr");
     }
-    const std::unique_ptr<OIIO::ImageOutput> output =
-        OIIO::ImageOutput::create(pending.temporaryPath().string());
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("openexr");
     if (!output) {
         fail(OIIO::geterror());
     }
     const OIIO::ImageSpec spec = fileSpec(map, precision);
-    if (!output->open(pending.temporaryPath().string(), spec)) {
+    if (!output->open(target.temporaryPath().string(), spec)) {
         fail(output->geterror());
     }
     const auto channels = static_cast<std::size_t>(spec.nchannels);
@@ -415,7 +414,7 @@ void writeMaterial(const MaterialMap& map, const fs::path& file, StoredPrecision
     if (!output->close()) {
         fail(output->geterror());
     }
-    pending.commit();
+    target.commit();
 }
 
 } // namespace celadon::subedit

@@ -1,7 +1,7 @@
 #include "subedit/map/range_table_file.h"
 
+#include "subedit/atomic_file.h"
 #include "subedit/errors.h"
-#include "subedit/pending_file.h"
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
@@ -170,7 +170,7 @@ void writeTableExr(const TableFile& table, const fs::path& file) {
         row.push_back(static_cast<float>(
             interpolate(logT, table.minimalRadius, std::lerp(logT.front(), logT.back(), t))));
     }
-    PendingFile pending(file);
+    AtomicFile target(file);
     OIIO::ImageSpec spec(kExrWidth, 1, 2, OIIO::TypeFloat);
     spec.channelnames = {"meanProfile", "minimalRadius"};
     spec.attribute("compression", "zip");
@@ -180,14 +180,13 @@ void writeTableExr(const TableFile& table, const fs::path& file) {
     spec.attribute("celadon:maxT", static_cast<float>(table.T.back()));
     spec.attribute("celadon:epsilon", static_cast<float>(table.epsilon));
     spec.attribute("celadon:energy", static_cast<float>(table.energy));
-    const std::unique_ptr<OIIO::ImageOutput> output =
-        OIIO::ImageOutput::create(pending.temporaryPath().string());
-    if (!output || !output->open(pending.temporaryPath().string(), spec) ||
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("openexr");
+    if (!output || !output->open(target.temporaryPath().string(), spec) ||
         !output->write_image(OIIO::TypeFloat, row.data()) || !output->close()) {
         throw OutputError(fmt::format("'{}'", file.string()),
                           "cannot be written: " + (output ? output->geterror() : OIIO::geterror()));
     }
-    pending.commit();
+    target.commit();
 }
 
 TableFile readTable(const fs::path& file) {

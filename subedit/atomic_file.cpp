@@ -1,4 +1,4 @@
-#include "renderer/output/atomic_file.h"
+#include "subedit/atomic_file.h"
 
 #include "subedit/assert.h"
 #include "subedit/errors.h"
