@@ -3,6 +3,7 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <functional>
 
 namespace celadon {
 
@@ -116,11 +117,15 @@ void TouchedTiles::dispatch(const gl::Program& program, const CoveredTiles& tile
         mList = gl::Buffer("touched tiles", mCovered.size() * sizeof(std::uint32_t),
                            gl::BufferUse::Update);
     }
-    for (std::size_t i = 0; i < mCovered.size(); ++i) {
-        mCovered[i] = mCovered[i] || now.covered[i];
-    }
+    add(tiles, level);
     dispatchList(program, mList, CoveredTiles::write(mCovered, now.tiles, mList));
     mCovered = now.covered;
+}
+
+void TouchedTiles::add(const CoveredTiles& tiles, int level) {
+    const std::vector<bool>& also = tiles.mLevels[static_cast<std::size_t>(level)].covered;
+    std::transform(mCovered.begin(), mCovered.end(), also.begin(), mCovered.begin(),
+                   std::logical_or());
 }
 
 } // namespace celadon

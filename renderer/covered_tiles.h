@@ -53,6 +53,8 @@ class TouchedTiles {
 public:
     /// A group of the program, which is in use, for each; the first time for all there are.
     void dispatch(const gl::Program& program, const CoveredTiles& tiles, int level);
+    /// After dispatch(): the pass goes on in these tiles as well, and so leaves something there.
+    void add(const CoveredTiles& tiles, int level);
 
 private:
     std::vector<bool> mCovered; ///< when it ran before

@@ -164,8 +164,9 @@ void Antialiasing::resolveDraw(const GpuWorld& world, const SplattingBuffer& vie
     mInterior.use();
     if (mTiles && isFirst) {
         mTouched.dispatch(mInterior, *mTiles, 0);
-    } else if (mTiles) {
+    } else if (mTiles) { // a rim may be seen by this draw only
         mTiles->dispatch(mInterior, 0);
+        mTouched.add(*mTiles, 0);
     } else {
         mInterior.dispatchOver(view.size());
     }

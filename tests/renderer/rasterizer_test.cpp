@@ -248,5 +248,27 @@ TEST_F(RasterizerTest, AMovedViewLeavesNothingBehind) {
     }
 }
 
+TEST_F(RasterizerTest, RimsThatOneDrawOfSamplesSeesAreForgottenToo) {
+    const World world = makeWorld("builtin:vase", wax());
+    FrameSettings settings = test::smallFrame(kSize, 16, Scheme::Hierarchical);
+    settings.rasterizer = Rasterizer::Processor;
+    settings.coverageSamples = 16; // four draws
+    const std::vector<Light> lights{test::frontLight()};
+    FrameRenderer moved(context(), world, settings);
+    const Camera start = test::defaultCamera(world, kSize);
+    const glm::dvec3 side = 0.1 / kSize.x * glm::cross(start.at - start.eye, start.up);
+    for (int i = 0; i < 80; ++i) { // by a tenth of a pixel or so: rims pass the borders of tiles
+        Camera camera = start;
+        camera.eye += double(i) * side;
+        camera.at += double(i) * side;
+        ASSERT_NE(moved.draw(camera, lights, nullptr), nullptr);
+    }
+    Camera away = start;
+    away.at = 2.0 * start.eye - start.at;
+    for (const float value : moved.draw(away, lights, nullptr)->readLevel()) {
+        ASSERT_EQ(value, 0.0f);
+    }
+}
+
 } // namespace
 } // namespace celadon
