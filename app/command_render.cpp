@@ -20,7 +20,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -65,6 +67,11 @@ void checkOutputs(const RenderOptions& options) {
     const FrameRange frames = options.frames.value_or(FrameRange{});
     for (int frame = frames.first; frame <= frames.last; ++frame) {
         checkFilesOfFrame(options, frame);
+        if (const std::filesystem::path model = modelOfFrame(options, frame);
+            options.sequence && !std::filesystem::exists(model)) {
+            throw InputError(fmt::format("'{}'", model.string()),
+                             fmt::format("no such file, for frame {} of --sequence", frame));
+        }
     }
     checkWritable(outputOfFrame(options, frames.first));
     if (options.stats) {
@@ -76,6 +83,23 @@ void warnOfIdleOptions(const RenderOptions& options) {
     if (const std::vector<std::string> idle = idleOptions(options); !idle.empty()) {
         log::warning("{}: of no effect without --scheme paper", fmt::join(idle, ", "));
     }
+    if (options.solver != Solver::PathTraced && (options.paths || options.noise > 0.0)) {
+        log::warning("{}: of no effect without --solver path-traced",
+                     options.paths ? "--paths" : "--noise");
+    }
+}
+
+/// Paths traced of all, or how far the error has come towards the one that is asked for: it falls
+/// as the root of their number.
+std::function<void(std::uint64_t, double)> pathProgress(const PathTracedSettings& settings) {
+    constexpr std::size_t kSteps = 1000;
+    return [bar = std::make_shared<Progress>("paths", kSteps), all = settings.paths,
+            noise = settings.noise](std::uint64_t paths, double relativeError) {
+        const double byCount = static_cast<double>(paths) / static_cast<double>(all);
+        const double byNoise = relativeError > 0.0 ? noise / relativeError : 0.0;
+        const double done = std::min(std::max(byCount, byNoise * byNoise), 1.0);
+        bar->update(static_cast<std::size_t>(done * static_cast<double>(kSteps)));
+    };
 }
 
 FrameSettings frameSettings(const RenderOptions& options) {
@@ -91,11 +115,9 @@ FrameSettings frameSettings(const RenderOptions& options) {
     case Solver::PathTraced:
         settings.solver = SolverKind::PathTraced;
         settings.pathTraced.medium = mediumOf(options).value();
-        settings.pathTraced.paths = static_cast<std::uint64_t>(options.paths);
+        settings.pathTraced.paths = static_cast<std::uint64_t>(pathCount(options));
         settings.pathTraced.noise = options.noise;
-        settings.pathTraced.progress =
-            [bar = std::make_shared<Progress>("paths", static_cast<std::size_t>(options.paths))](
-                std::uint64_t paths, double) { bar->update(paths); };
+        settings.pathTraced.progress = pathProgress(settings.pathTraced);
         break;
     case Solver::Splatting:
         settings.solver = SolverKind::Splatting;
@@ -109,7 +131,7 @@ FrameSettings frameSettings(const RenderOptions& options) {
     }
     if (options.irradianceSize) {
         splatting.irradianceSize = *options.irradianceSize;
-        splatting.refineShortRanges = false;
+        splatting.fineBelowTexels = splatting.finerBelowTexels = 0.0;
     }
     if (options.levels) {
         splatting.irradianceLevels = options.levels->irradiance;
@@ -222,10 +244,15 @@ void warnAboutRadius(const World& world, const FrameStats& stats) {
 }
 
 /// What a reference knows of its own error.
-void tellNoise(const ReferenceError& noise) {
+void tellNoise(const ReferenceError& noise, const RenderOptions& options) {
     constexpr double kMuchLost = 1e-3;
     if (std::isfinite(noise.relativeError)) {
         log::info("relative error {:.3g} (standard)", noise.relativeError);
+        if (options.solver == Solver::PathTraced && options.noise > 0.0 &&
+            noise.relativeError > options.noise) {
+            log::warning("relative error {:.3g}: all --paths are traced before --noise {:g}",
+                         noise.relativeError, options.noise);
+        }
     }
     if (noise.lostFlux > kMuchLost) {
         log::warning(
@@ -278,7 +305,7 @@ public:
         if (frame.seesScattering) {
             warnAboutRadius(shown, frame.stats);
         }
-        tellNoise(frame.stats.reference);
+        tellNoise(frame.stats.reference, mOptions);
         if (mOptions.environmentBehind) {
             frame.image = compositeOverEnvironment(std::move(frame.image), mEnvironment, camera);
         }

@@ -22,6 +22,8 @@ constexpr long long kMaxPixels = 1LL << 26; // 67 million: 1 GiB a float RGBA bu
 constexpr int kMaxLevels = 12;
 constexpr int kMaxIrradianceSize = 8192;
 constexpr int kMaxEnvironmentLights = 4096;
+constexpr int kUsualPaths = 4'000'000;
+constexpr int kMostPaths = 2'000'000'000;
 constexpr int kMaxSamples = 64;
 
 constexpr std::array<std::string_view, 4> kSolvers{"splatting", "image-reference",
@@ -234,10 +236,10 @@ void addPathTraced(CLI::App& app, RenderOptions& o) {
     const char* group = "Path tracing";
     addOption(app, "--paths",
               {group, "N",
-               fmt::format(
-                   "path-traced: light paths, rounded up to whole rounds; default {}, all of them",
-                   o.paths)},
-              takeInteger(o.paths, 1, 2'000'000'000));
+               fmt::format("path-traced: light paths at most, rounded up to whole rounds; default "
+                           "{}, with --noise as many as it takes",
+                           kUsualPaths)},
+              takeInteger(o.paths, 1, kMostPaths));
     addOption(app, "--noise",
               {group, "F", "path-traced: stops when the relative error is this; default 0, never"},
               takeNumber(o.noise, {0.0, 1.0, false}));
@@ -352,6 +354,10 @@ void validateRenderOptions(const RenderOptions& o) {
             "--reduced-scattering, or --albedo with --mean-free-path, instead of --material");
     validateMotion(o);
     validateView(o);
+}
+
+int pathCount(const RenderOptions& options) {
+    return options.paths.value_or(options.noise > 0.0 ? kMostPaths : kUsualPaths);
 }
 
 std::vector<std::string> idleOptions(const RenderOptions& o) {

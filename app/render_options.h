@@ -92,12 +92,14 @@ struct RenderOptions {
 
     // A homogeneous medium instead of a material, and how long paths are traced in it
     MediumOptions medium;
-    int paths = 4'000'000;
+    std::optional<int> paths; ///< default: see pathCount()
     double noise = 0.0; ///< 0: all paths
 };
 
 /// The medium that is asked for; unset where none is. @throws UsageError
 [[nodiscard]] std::optional<subedit::Medium> mediumOf(const RenderOptions& options);
+/// As many as --noise takes, if that alone is given.
+[[nodiscard]] int pathCount(const RenderOptions& options);
 
 /// Registers every option of the struct. Values are checked while the command line is parsed.
 void addRenderOptions(CLI::App& app, RenderOptions& options);

@@ -2,6 +2,15 @@
 
 namespace celadon {
 
+namespace {
+
+/// Texels of the light view that R_P spans: below, silhouettes and shadows of the view err by more
+/// than 1 % of what is seen; the texels themselves begin to show, as a lattice.
+constexpr double kSilhouettes = 15.0;
+constexpr double kLattice = 3.75;
+
+} // namespace
+
 FrameSettings frameSettings(Quality quality) {
     FrameSettings settings;
     SplattingSettings& splatting = settings.splatting;
@@ -10,6 +19,7 @@ FrameSettings frameSettings(Quality quality) {
     switch (quality) {
     case Quality::Sketch:
         splatting.irradianceSize = 128;
+        splatting.finerBelowTexels = 1.0; // whose light would get lost between texels
         splatting.patchVariance = 3.0;
         splatting.alpha = 8.0;
         splatting.sampleAngle = 4.0;
@@ -22,6 +32,7 @@ FrameSettings frameSettings(Quality quality) {
         break;
     case Quality::Draft:
         splatting.irradianceSize = 256;
+        splatting.finerBelowTexels = kLattice;
         splatting.patchVariance = 2.0;
         splatting.alpha = 8.0;
         splatting.sampleAngle = 3.0;
@@ -29,11 +40,13 @@ FrameSettings frameSettings(Quality quality) {
         settings.shadowSize = 512;
         break;
     case Quality::Default:
-        splatting.refineShortRanges = true;
+        splatting.fineBelowTexels = kSilhouettes;
+        splatting.finerBelowTexels = kLattice;
         break;
     case Quality::Final:
         splatting.irradianceSize = 1024;
-        splatting.refineShortRanges = true;
+        splatting.fineBelowTexels = kSilhouettes;
+        splatting.finerBelowTexels = kLattice;
         splatting.sampleAngle = 1.4;
         splatting.pixelAngle = 0.16;
         settings.shadowSize = 2048;

@@ -115,9 +115,12 @@ struct FrameRenderer::Passes {
           antialiasing(settings.coverageSamples > 1
                            ? std::make_unique<Antialiasing>(shaders, view, settings.coverageSamples)
                            : nullptr) {
+        const auto shortRadiusMm = static_cast<double>(materials.shortRadiusMm());
+        const double diameterMm = 2.0 * world.scatteringSphere.radius;
         settings.splatting.irradianceSize =
-            refinedIrradianceSize(settings.splatting, double(materials.shortRadiusMm()),
-                                  2.0 * world.scatteringSphere.radius);
+            refinedIrradianceSize(settings.splatting, shortRadiusMm, diameterMm);
+        settings.splatting.patchVariance =
+            refinedPatchVariance(settings.splatting, shortRadiusMm, diameterMm);
         switch (settings.solver) {
         case SolverKind::Splatting:
             settings.splatting.backend = resolveBackend(settings.splatting.backend, glContext);

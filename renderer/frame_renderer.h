@@ -106,7 +106,7 @@ public:
     void geometryChanged();
     /// Times of draw()s since the last call. Waits for the GPU.
     [[nodiscard]] StageMilliseconds takeTimes();
-    /// N of the light views, once refined for the scene (SplattingSettings::refineShortRanges).
+    /// N of the light views, once refined for the scene (refinedIrradianceSize).
     [[nodiscard]] int irradianceSize() const;
     /// The visible surface of the last frame.
     [[nodiscard]] const SplattingBuffer& view() const;

@@ -66,6 +66,10 @@ fs::path resolveTarget(const fs::path& target) {
     if (target.empty()) {
         throw OutputError("output", "no file name is given");
     }
+    if (target == "-") {
+        throw OutputError("'-'", "is no name for standard output here",
+                          "name a file; './-' is one of that name");
+    }
     std::error_code error;
     fs::path resolved = target;
     // Link by link: what the last one names need not exist yet.

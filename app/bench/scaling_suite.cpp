@@ -162,7 +162,8 @@ BenchDocument runScaling(const gl::Context& context, const ScalingOptions& optio
             for (const Case& c : variation.cases) {
                 log::info("{} {:g}: {}", variation.name, c.amount, method.name);
                 method.settings.splatting.irradianceSize = c.irradianceSize;
-                method.settings.splatting.refineShortRanges = false;
+                method.settings.splatting.fineBelowTexels =
+                    method.settings.splatting.finerBelowTexels = 0.0;
                 method.settings.splatting.backend = options.backend;
                 const MeasuredFrame frame =
                     measureFrames(context, c.world, method.settings, c.size,

@@ -194,7 +194,8 @@ std::string runBench(const gl::Context& context, const BenchRequest& request) {
                         settings.splatting.backend = backend.kind;
                         if (request.irradianceSize) {
                             settings.splatting.irradianceSize = *request.irradianceSize;
-                            settings.splatting.refineShortRanges = false;
+                            settings.splatting.fineBelowTexels =
+                                settings.splatting.finerBelowTexels = 0.0;
                         }
                         const Camera camera =
                             chooseCamera(world, {}, static_cast<double>(size.x) / size.y);

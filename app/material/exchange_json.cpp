@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 namespace celadon::app {
 
@@ -16,7 +18,8 @@ using nlohmann::json;
 
 namespace {
 
-/// The names that a convention has for what SubsurfaceParameters holds.
+/// The names that a convention has for what SubsurfaceParameters holds, and what it takes where a
+/// file says nothing.
 struct FieldNames {
     const char* color;
     const char* radius;
@@ -25,18 +28,28 @@ struct FieldNames {
     const char* eta;
     const char* roughness;
     const char* weight;
+    glm::dvec3 defaultScale;
+    double defaultEta;
+
+    [[nodiscard]] bool knows(std::string_view field) const {
+        return std::ranges::count(std::array<std::string_view, 7>{color, radius, scale, anisotropy,
+                                                                  eta, roughness, weight},
+                                  field) != 0;
+    }
 };
 
-constexpr FieldNames kOpenPbr{"subsurface_color",
-                              "subsurface_radius",
-                              "subsurface_radius_scale",
-                              "subsurface_scatter_anisotropy",
-                              "specular_ior",
-                              "specular_roughness",
-                              "subsurface_weight"};
-constexpr FieldNames kPrincipled{
-    "base_color", "subsurface_radius", "subsurface_scale", "subsurface_anisotropy",
-    "ior",        "roughness",         "subsurface_weight"};
+const FieldNames kOpenPbr{"subsurface_color",
+                          "subsurface_radius",
+                          "subsurface_radius_scale",
+                          "subsurface_scatter_anisotropy",
+                          "specular_ior",
+                          "specular_roughness",
+                          "subsurface_weight",
+                          {1.0, 0.5, 0.25},
+                          1.5};
+const FieldNames kPrincipled{
+    "base_color", "subsurface_radius", "subsurface_scale", "subsurface_anisotropy",   "ior",
+    "roughness",  "subsurface_weight", glm::dvec3(1.0),    SubsurfaceParameters().eta};
 
 /// Checked reading of one object's fields; messages name the file.
 class FieldReader {
@@ -110,8 +123,13 @@ SubsurfaceParameters parametersFromJson(const json& parameters, const std::strin
     glm::dvec3 radius = fields.rgb(names.radius, 0.0, 1e9);
     if (fields.has(names.scale)) {
         radius *= fields.rgb(names.scale, 0.0, 1e9);
-    } else if (convention == Convention::Principled) {
-        notes.push_back(fmt::format("no {}: taken as 1", names.scale));
+    } else {
+        const glm::dvec3& scale = names.defaultScale;
+        radius *= scale;
+        notes.push_back(scale == glm::dvec3(1.0)
+                            ? fmt::format("no {}: taken as 1", names.scale)
+                            : fmt::format("no {}: taken as {}, {}, {}", names.scale, scale.x,
+                                          scale.y, scale.z));
     }
     p.meanFreePathMm = radius * unitMm;
     for (int channel = 0; channel < 3; ++channel) {
@@ -124,14 +142,17 @@ SubsurfaceParameters parametersFromJson(const json& parameters, const std::strin
     if (fields.has(names.anisotropy)) {
         p.anisotropy = fields.number(names.anisotropy, -0.99, 0.99);
     }
-    if (fields.has(names.eta)) {
-        p.eta = fields.number(names.eta, 0.5, 4.0);
-    }
+    p.eta = fields.has(names.eta) ? fields.number(names.eta, 0.5, 4.0) : names.defaultEta;
     if (fields.has(names.roughness)) {
         p.roughness = fields.number(names.roughness, 0.0, 1.0);
     }
     if (fields.has(names.weight) && fields.number(names.weight, 0.0, 1.0) < 1.0) {
         notes.push_back(fmt::format("{} is below 1: the diffuse rest is left out", names.weight));
+    }
+    for (const auto& [field, value] : parameters.items()) {
+        if (field.starts_with("subsurface_") && !names.knows(field)) {
+            notes.push_back(fmt::format("'{}' is not known, and left out", field));
+        }
     }
     return p;
 }

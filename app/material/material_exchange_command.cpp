@@ -117,7 +117,8 @@ void runExport(const ExportOptions& options) {
         checkWritable(options.output);
     }
     const fs::path file = findMaterial(options.material);
-    refuseOverwriting({{"--output", options.output}}, {{"the material", file}});
+    refuseOverwriting({{"--output", options.output}},
+                      {{"the material", file}, {"--into", options.into}});
     const MaterialMap map = readMaterial(file);
     const NearestParameters nearest = nearestParameters(map);
     const json out = options.convention == Convention::Gltf

@@ -40,10 +40,12 @@ void addMediumOptions(CLI::App& app, MediumOptions& o) {
     addOption(app, "--scattering",
               {group, "R,G,B", "sigma_s in 1/mm, with --g, instead: sigma_s' = sigma_s (1 - g)"},
               takeText(o.scattering));
-    addOption(app, "--albedo",
-              {group, "R,G,B",
-               "Surface albedo for normalized-diffusion, single scattering alpha' for the others"},
-              takeText(o.albedo));
+    addOption(
+        app, "--albedo",
+        {group, "R,G,B",
+         "alpha', of a single scattering; of --model normalized-diffusion the surface's, which "
+         "--surface-albedo is for all"},
+        takeText(o.albedo));
     addOption(app, "--surface-albedo",
               {group, "R,G,B",
                "Surface albedo for every model: alpha' is found with which the model returns as "

@@ -151,6 +151,11 @@ MadeProfile makeProfile(const ModelOptions& options, const Medium& medium) {
     made.eta = medium.eta;
     switch (options.model) {
     case ProfileModel::Dipole:
+        if (medium.eta > kLargestDipoleEta) {
+            throw UsageError(
+                "--eta", fmt::format("the dipole's Fresnel term holds up to {}", kLargestDipoleEta),
+                "choose another --model");
+        }
         made.curves = dipoleProfile(medium);
         break;
     case ProfileModel::BetterDipole:

@@ -33,6 +33,15 @@ void mergeInto(json& target, const json& made) {
     }
 }
 
+/// The new factor is the whole color: a viewer would multiply it by the old picture. One that cuts
+/// holes has to stay.
+void dropColorTexture(json& material) {
+    if (material.value("alphaMode", "OPAQUE") == "OPAQUE" &&
+        material.contains("pbrMetallicRoughness")) {
+        material["pbrMetallicRoughness"].erase("baseColorTexture");
+    }
+}
+
 std::size_t materialCount(const json& document) {
     return document.contains("materials") ? document["materials"].size() : 0;
 }
@@ -73,6 +82,7 @@ void mergeGltfMaterial(json& document, std::size_t material, const json& made) {
         json& target = document["materials"][material];
         const json name = target.value("name", made["name"]);
         mergeInto(target, made);
+        dropColorTexture(target);
         target["name"] = name;
     } else if (wearWhereNone(document, count)) {
         document["materials"].push_back(made);

@@ -4,6 +4,7 @@
 #include "renderer/splatting/raster_backend.h"
 #include "renderer/splatting/tiled_backend.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -18,13 +19,24 @@ SplatBackendKind resolveBackend(SplatBackendKind kind, const gl::Context& contex
 }
 
 int refinedIrradianceSize(const SplattingSettings& settings, double shortRadiusMm, double R_w) {
-    if (!settings.refineShortRanges) {
-        return settings.irradianceSize;
-    }
-    // Below 15, silhouettes and shadows of the light view err by more than 1 % of what is seen;
-    // below 3 or 4 the texels themselves begin to show, as a lattice.
     const double texels = settings.irradianceSize * shortRadiusMm / R_w;
-    return settings.irradianceSize * (texels < 3.75 ? 4 : texels < 15.0 ? 2 : 1);
+    return settings.irradianceSize * (texels < settings.finerBelowTexels  ? 4
+                                      : texels < settings.fineBelowTexels ? 2
+                                                                          : 1);
+}
+
+double refinedPatchVariance(const SplattingSettings& settings, double shortRadiusMm, double R_w) {
+    if (settings.finerBelowTexels <= 0.0 || settings.scheme != Scheme::Hierarchical) {
+        return settings.patchVariance;
+    }
+    // Patches s texels wide ripple by 2 e^(-2 pi^2 s^2): 40 % at 1/12, 1.4 % at three times that.
+    constexpr double kSpread = 3.0;
+    constexpr double kNone = 3.75; // texels of a range that hide the lattice by themselves
+    constexpr double kAll = 2.0;
+    const double texels = settings.irradianceSize * shortRadiusMm / R_w;
+    const double wanted =
+        std::lerp(kSpread, 1.0, std::clamp((texels - kAll) / (kNone - kAll), 0.0, 1.0));
+    return std::max(settings.patchVariance, wanted);
 }
 
 SplattingSolver::SplattingSolver(const gl::ShaderLibrary& shaders,

@@ -19,6 +19,11 @@ namespace celadon {
 /// @param shortRadiusMm R_P of what is lit, where it is short; @param R_w in mm
 [[nodiscard]] int refinedIrradianceSize(const SplattingSettings& settings, double shortRadiusMm,
                                         double R_w);
+/// Where ranges are shorter than a few texels of even that, patches are spread until they no longer
+/// show as a lattice: what scatters as good as nowhere looks opaque, and smooth.
+/// @param settings with the refined size
+[[nodiscard]] double refinedPatchVariance(const SplattingSettings& settings, double shortRadiusMm,
+                                          double R_w);
 
 class SplattingSolver final : public ExitanceSolver {
 public:

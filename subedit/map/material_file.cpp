@@ -27,7 +27,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kFileVersion = 1;
-constexpr float kMaxLogProfile = 40.0f;   ///< e^40 per mm^2: no profile, whatever its radius
+constexpr float kMaxLogProfile = 40.0f; ///< e^40 per mm^2: no profile, whatever its radius
+constexpr float kMinRadiusMm = 1e-6f;
 constexpr float kMaxRadiusMm = 1e6f;      ///< a kilometer
 constexpr int kBandRows = 64;             ///< rows read or written at a time
 constexpr float kAlbedoTolerance = 1e-3f; ///< half precision may exceed 1 by so much
@@ -45,6 +46,10 @@ std::string channelOf(int knot, int component) {
                      reason, remedy);
 }
 
+bool isStorable(float maxRadiusMm) {
+    return maxRadiusMm >= kMinRadiusMm && maxRadiusMm <= kMaxRadiusMm;
+}
+
 /// The scalars of the file, checked; maps are still empty.
 MaterialMap readAttributes(const fs::path& file, const ExrHeader& header) {
     MaterialMap map;
@@ -60,7 +65,7 @@ MaterialMap readAttributes(const fs::path& file, const ExrHeader& header) {
                fmt::format("is {}, not in 1..{}", map.segments, kMaxSegments));
     }
     map.maxRadiusMm = header.floatAttribute(file, "subedit:maxRadius");
-    if (!(map.maxRadiusMm >= 1e-6f && map.maxRadiusMm <= kMaxRadiusMm)) {
+    if (!isStorable(map.maxRadiusMm)) {
         refuse(file, "attribute 'subedit:maxRadius'",
                fmt::format("is {}, not a length in millimeters in [1e-6, 1e6]", map.maxRadiusMm));
     }
@@ -383,6 +388,10 @@ void writeMaterial(const MaterialMap& map, const fs::path& file, StoredPrecision
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (extension != ".exr") {
         fail("the name does not end in .exr");
+    }
+    if (!isStorable(map.maxRadiusMm)) {
+        fail(fmt::format("its profiles reach {:.4g} mm, and 1e-6 to 1e6 can be stored",
+                         map.maxRadiusMm));
     }
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create("openexr");
     if (!output) {

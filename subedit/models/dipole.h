@@ -12,6 +12,9 @@ namespace celadon::subedit {
 /// for eta >= 1, and that of Egan and Hilgeman 1979 for eta < 1.
 [[nodiscard]] double diffuseFresnelReflectance(double eta);
 
+/// Of the dipole: above, the fit says that more is reflected than there is.
+inline constexpr double kLargestDipoleEta = 3.8;
+
 /// Jensen et al. 2001, eq. 4. Finite at r = 0.
 /// @param medium valid by validateMedium()
 [[nodiscard]] RadialCurves dipoleProfile(const Medium& medium);

@@ -13,6 +13,7 @@ namespace {
 using namespace subedit;
 using nlohmann::json;
 using testing::AllOf;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 json openPbr() {
@@ -44,7 +45,7 @@ TEST(ExchangeJson, PrincipledIsReadByItsConvention) {
     const SubsurfaceParameters p =
         parametersFromJson(given, "f.json", Convention::Principled, 1000.0, notes);
     EXPECT_NEAR(p.meanFreePathMm.x, 50.0, 1e-9);
-    EXPECT_THAT(notes, testing::ElementsAre(HasSubstr("subsurface_weight")));
+    EXPECT_THAT(notes, ElementsAre(HasSubstr("subsurface_weight")));
 }
 
 TEST(ExchangeJson, ThereAndBackIsTheSame) {
@@ -63,6 +64,17 @@ TEST(ExchangeJson, ThereAndBackIsTheSame) {
             EXPECT_NEAR(back.meanFreePathMm[c] / p.meanFreePathMm[c], 1.0, 0.03) << c;
         }
     }
+}
+
+TEST(ExchangeJson, WhatAFileLeavesOutIsAsTheConventionHasIt) {
+    std::vector<std::string> notes;
+    const SubsurfaceParameters p = parametersFromJson(
+        {{"subsurface_color", 0.5}, {"subsurface_radius", 0.001}, {"subsurface_radius_scal", 2.0}},
+        "f", Convention::OpenPbr, 1000.0, notes);
+    EXPECT_EQ(p.meanFreePathMm, glm::dvec3(1.0, 0.5, 0.25));
+    EXPECT_EQ(p.eta, 1.5);
+    EXPECT_THAT(notes, ElementsAre(HasSubstr("no subsurface_radius_scale"),
+                                   HasSubstr("'subsurface_radius_scal' is not known")));
 }
 
 TEST(ExchangeJson, ForwardScatteringIsReducedBySimilarity) {

@@ -205,22 +205,35 @@ TEST_F(MaterialCommand, ImportAndExportGoBothWays) {
 
 TEST_F(MaterialCommand, ExportIntoAGltf) {
     test::writeText(folder / "m.gltf",
-                    R"({"asset":{"version":"2.0"},"materials":[{"name":"a"}],"meshes":[]})");
+                    R"({"asset":{"version":"2.0"},"materials":[{"name":"a",
+                       "pbrMetallicRoughness":{"baseColorTexture":{"index":0}}},
+                       {"name":"leaf","alphaMode":"MASK",
+                       "pbrMetallicRoughness":{"baseColorTexture":{"index":0}}}],"meshes":[]})");
     expectDone({"bake", "--recipe", "skin1", "-o", file("skin.subedit.exr")});
     expectDone({"export", file("skin.subedit.exr"), "--convention", "gltf", "--into",
                 file("m.gltf"), "--gltf-material", "a", "-o", file("out.gltf")});
     const auto document = nlohmann::json::parse(test::readText(folder / "out.gltf"));
     EXPECT_EQ(document["materials"][0]["extras"]["subedit"], "skin.subedit.exr");
+    const auto& look = document["materials"][0]["pbrMetallicRoughness"];
+    EXPECT_TRUE(look.contains("baseColorFactor"));
+    EXPECT_FALSE(look.contains("baseColorTexture")); // or viewers would multiply the two
+    expectDone({"export", file("skin.subedit.exr"), "--convention", "gltf", "--into",
+                file("m.gltf"), "--gltf-material", "leaf", "-o", file("leaf.gltf")});
+    const auto leaf = nlohmann::json::parse(test::readText(folder / "leaf.gltf"));
+    EXPECT_TRUE(leaf["materials"][1]["pbrMetallicRoughness"].contains("baseColorTexture"));
     expectRefused({"export", "jade", "--convention", "gltf", "--into", file("m.gltf"), "-o",
                    "/tmp/elsewhere.gltf"},
                   2, HasSubstr("another folder"));
     expectRefused({"export", "jade", "--into", file("m.gltf")}, 2, HasSubstr("--into"));
+    expectRefused({"export", "jade", "--convention", "gltf", "--into", file("m.gltf"), "-o",
+                   file("./m.gltf")},
+                  2, HasSubstr("--into"));
     const auto refusesInto = [&](const std::string& name, const std::string& says) {
         expectRefused({"export", "jade", "--convention", "gltf", "--into", file(name),
                        "--gltf-material", "hair", "-o", file("out.gltf")},
                       3, AllOf(HasSubstr("'" + file(name) + "'"), HasSubstr(says)));
     };
-    refusesInto("m.gltf", "has no material 'hair' among its 1");
+    refusesInto("m.gltf", "has no material 'hair' among its 2");
     test::writeText(folder / "old.gltf", R"({"asset":{"version":"1.0"}})");
     refusesInto("old.gltf", "is glTF \"1.0\", not 2.0");
     test::writeText(folder / "odd.gltf", R"({"asset":{"version":"2.0"},"materials":[7]})");

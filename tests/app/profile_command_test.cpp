@@ -84,6 +84,7 @@ TEST_F(ProfileCommand, MakeRefusesOptionsThatDoNotGoTogether) {
     expectRefused(make({"--g", "1"}), 2, HasSubstr("--g"));
     expectRefused(make({"--g", "-1.5"}), 2, HasSubstr("--g"));
     expectRefused(make({"--samples", "0"}), 2, HasSubstr("--samples"));
+    expectRefused(make({"--eta", "3.9"}), 2, HasSubstr("dipole"));
     expectRefused(make({"--model", "magic"}), 2, HasSubstr("photon-beam"));
     expectRefused(make({"--scattering", "1"}), 2, HasSubstr("both given"));
     expectRefused(make({"--mean-free-path", "1"}), 2, HasSubstr("more than one way"));

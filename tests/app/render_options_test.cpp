@@ -44,6 +44,10 @@ TEST(RenderOptions, TakeAMediumForAMaterial) {
     EXPECT_DOUBLE_EQ(medium.eta, 1.4);
     EXPECT_EQ(o.paths, 1000);
     EXPECT_DOUBLE_EQ(o.noise, 0.02);
+    EXPECT_EQ(pathCount(o), 1000);
+    // A noise alone takes as many as it takes.
+    EXPECT_EQ(pathCount(parse({"--preset", "marble"})), 4'000'000);
+    EXPECT_GT(pathCount(parse({"--preset", "marble", "--noise", "0.02"})), 1'000'000'000);
 }
 
 TEST(RenderOptions, TellWhichHaveNoEffectInTheHierarchicalScheme) {

@@ -109,6 +109,7 @@ TEST(AtomicFile, NamesWhatStandsInTheWay) {
     EXPECT_THAT(message(folder.path()), HasSubstr("is a folder"));
     EXPECT_THAT(message(folder.path().string() + "/"), HasSubstr("is a folder"));
     EXPECT_THAT(message(""), HasSubstr("no file name"));
+    EXPECT_THAT(message("-"), HasSubstr("standard output"));
     EXPECT_THAT(message("/dev/null"), HasSubstr("device"));
     EXPECT_THAT(message(folder / std::string(300, 'a')), HasSubstr("too long"));
     writeText(folder / "file", "");
