@@ -288,7 +288,8 @@ void Editor::step() {
         mFramesToDraw = kSettlingFrames;
     }
     const std::string name = std::filesystem::path(mSession.opened().model).filename().string();
-    mWindow.setTitle(fmt::format("{}{} \xe2\x80\x94 Celadon", mSession.isModified() ? "*" : "",
+    mWindow.setTitle(fmt::format("{}{} \xe2\x80\x94 Celadon",
+                                 mSession.isAnythingModified() ? "*" : "",
                                  name.empty() ? "Celadon" : name));
 }
 

@@ -178,12 +178,14 @@ void FileActions::saveAsNew(const std::string& name) {
          {"Cancel", {}}});
 }
 
-void FileActions::exportGltf() {
+void FileActions::exportGltf(const std::function<void()>& then) {
     const std::string stem = std::filesystem::path(mSession.opened().model).stem().string();
     chooseOutput("Export glTF and SubEdit", {".gltf", ".glb"},
                  (stem.starts_with("builtin:") ? stem.substr(8) : stem) + ".gltf",
-                 [this](const auto& file) {
-                     mSession.perform({"file.export", {{"file", file.string()}}});
+                 [this, then](const auto& file) {
+                     if (mSession.perform({"file.export", {{"file", file.string()}}}) && then) {
+                         then();
+                     }
                  });
 }
 
@@ -224,7 +226,18 @@ void FileActions::drop(const std::filesystem::path& file) {
 }
 
 void FileActions::guard(const std::function<void()>& act) {
-    guardMaterial([this, act] { guardDeformers(act); });
+    guardMaterial([this, act] { guardDeformers([this, act] { guardLights(act); }); });
+}
+
+void FileActions::guardLights(const std::function<void()>& act) {
+    if (!mSession.areLightsModified() || mIsUnattended) {
+        act();
+        return;
+    }
+    ask("Unsaved changes", "The lights have changes that only an export to glTF keeps.",
+        {{"Export\xe2\x80\xa6", [this, act] { exportGltf(act); }},
+         {"Do not save", act},
+         {"Cancel", {}}});
 }
 
 void FileActions::guardDeformers(const std::function<void()>& act) {

@@ -38,7 +38,7 @@ public:
     void saveAs() { saveAs(mSession.activeMaterial, {}); }
     /// Into the user's own materials. @param name without a suffix
     void saveAsNew(const std::string& name);
-    void exportGltf();
+    void exportGltf(const std::function<void()>& then = {});
     /// Any other output: the dialog, and where to write.
     void chooseOutput(const std::string& title, std::vector<std::string> suffixes,
                       const std::string& name,
@@ -48,6 +48,8 @@ public:
 
     /// Acts, after asking where changes would be lost.
     void guard(const std::function<void()>& act);
+    /// What guard() asks where lights have unsaved changes.
+    void guardLights(const std::function<void()>& act);
     /// What guard() asks where a material has unsaved changes.
     void askAboutMaterial(const std::function<void()>& act);
     void ask(const std::string& title, const std::string& text,

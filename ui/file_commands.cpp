@@ -71,13 +71,23 @@ std::vector<std::string> leftOut(const Session& session) {
     if (!world.cameras.empty()) {
         lost.emplace_back("cameras");
     }
-    if (!world.lights.empty()) {
-        lost.emplace_back("lights");
-    }
     return lost;
 }
 
-/// A glTF that was opened keeps all that it has but for materials and deformers, unless its
+/// Those that are on, in meters.
+std::vector<loaders::NamedLight> exportLights(const Session& session) {
+    constexpr double kMmPerMeter = 1e3;
+    std::vector<loaders::NamedLight> lights;
+    for (const RigLight& item : session.rig.lights) {
+        if (item.isOn) {
+            lights.push_back({item.name, item.light});
+            lights.back().light.position /= kMmPerMeter;
+        }
+    }
+    return lights;
+}
+
+/// A glTF that was opened keeps all that it has but for materials, deformers and lights, unless its
 /// vertices had to change for an automatic atlas. Of other models a glTF is made.
 void exportGltf(Session& session, const std::filesystem::path& file) {
     if (!session.hasWorld() || !session.services().describeMaterial) {
@@ -121,21 +131,34 @@ void exportGltf(Session& session, const std::filesystem::path& file) {
         }
         changes.deformers = stack;
         changes.scale = metersPerUnit;
+        if (session.areLightsOther()) {
+            changes.lights = exportLights(session);
+        }
         subedit::doTelling(progress, [&] {
             lost = loaders::rewriteGltf(model, changes, file);
             writeMaterials();
         });
+        if (changes.lights && std::ranges::any_of(session.rig.lights, [](const RigLight& item) {
+                return item.followed.has_value();
+            })) {
+            lost.emplace_back("movements of lights");
+        }
     } else {
         nlohmann::json extras = nlohmann::json::object();
+        std::vector<loaders::NamedLight> lights;
+        if (session.areLightsOther() || !world.lights.empty()) { // else those of any model
+            lights = exportLights(session);
+        }
         if (!stack.empty()) {
             extras["celadon"] = loaders::deformersJson(stack);
         }
         subedit::doTelling(progress, [&] {
-            writeGltf(world, materials, extras, file);
+            writeGltf(world, materials, extras, file, lights);
             writeMaterials();
         });
         lost = leftOut(session);
     }
+    session.markLightsSaved();
     session.notify(Notice::Kind::Info,
                    fmt::format("Exported '{}' with {} beside it", file.string(),
                                materials.size() > 1 ? "its materials" : "its material"));

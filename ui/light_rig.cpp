@@ -38,6 +38,16 @@ glm::dvec3 turned(const glm::dvec3& v, double radians) {
 
 } // namespace
 
+bool areSame(std::span<const RigLight> a, std::span<const RigLight> b) {
+    return std::ranges::equal(a, b, [](const RigLight& x, RigLight y) {
+        if (x.followed && x.followed == y.followed) {
+            y.light.position = x.light.position;
+            y.light.direction = x.light.direction;
+        }
+        return x == y;
+    });
+}
+
 std::vector<Light> LightRig::resolved() const {
     std::vector<Light> result;
     for (const RigLight& item : lights) {

@@ -25,6 +25,9 @@ struct RigLight {
     [[nodiscard]] bool operator==(const RigLight&) const = default;
 };
 
+/// Whether lights are those of a file still: places that follow an animation do not count.
+[[nodiscard]] bool areSame(std::span<const RigLight> a, std::span<const RigLight> b);
+
 /// An environment map, kept as it was read, and how much of it is used.
 struct RigEnvironment {
     std::filesystem::path file;

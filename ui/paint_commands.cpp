@@ -13,7 +13,7 @@ namespace {
 
 void refuseDuringStroke(const Session& session) {
     if (session.isStrokeOpen()) {
-        throw UsageError("painting", "a stroke is under way");
+        throw UsageError("the stroke", "has not ended", "finish it, or Escape gives it up");
     }
 }
 
@@ -51,6 +51,17 @@ subedit::SelectMode parseSelectMode(const std::string& word) {
     }
     throw UsageError(fmt::format("selection '{}'", word), "there is no such way to combine",
                      "choose replace, add, subtract or intersect");
+}
+
+/// Whether all or nothing is to be selected, and is.
+bool isSelectedAlready(const Session& session, const std::string& what) {
+    if (session.activeDocument() == nullptr) {
+        return false;
+    }
+    const subedit::WeightMask& selection = session.activeDocument()->selection();
+    return (what == "none" && selection.isZero()) ||
+           (what == "all" &&
+            selection == subedit::WeightMask::full(selection.width(), selection.height()));
 }
 
 subedit::SelectionStep selectionStep(const Arguments& a) {
@@ -254,7 +265,11 @@ void addPaintCommands(Session& session) {
                      });
     commands.addLong(
         "select.change", "all, none, invert; grow, shrink, feather by mm along the surface",
-        [&session](const Arguments& a) { session.edit(subedit::SelectCommand{selectionStep(a)}); });
+        [&session](const Arguments& a) {
+            if (!isSelectedAlready(session, a.text("what"))) { // no step, and redoing stays
+                session.edit(subedit::SelectCommand{selectionStep(a)});
+            }
+        });
     commands.addLong(
         "select.similar", "Texels whose profile is like that at a point: position and normal",
         [&session](const Arguments& a) {

@@ -123,6 +123,7 @@ void Session::adopt(const OpenRequest& request, OpenedScene scene) {
                                "model: View changes it",
                                view.exposureEv));
         }
+        mFirstLights = mSavedLights = rig.lights;
         selectedLight = 0;
         paint.brush.radiusMm = static_cast<float>(0.08 * mWorld->scatteringSphere.radius);
     }

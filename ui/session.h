@@ -172,6 +172,15 @@ public:
         return motion.now.deformers != mSavedDeformers;
     }
     void markDeformersSaved() { mSavedDeformers = motion.now.deformers; }
+    /// Other lights than those that the model brought, or got.
+    [[nodiscard]] bool areLightsOther() const { return !areSame(rig.lights, mFirstLights); }
+    /// Lights that no file has: only exports keep them.
+    [[nodiscard]] bool areLightsModified() const { return !areSame(rig.lights, mSavedLights); }
+    void markLightsSaved() { mSavedLights = rig.lights; }
+    /// Of any kind.
+    [[nodiscard]] bool isAnythingModified() const {
+        return isModified() || areDeformersModified() || areLightsModified();
+    }
 
     // What can be undone (session_settings.cpp).
     /// Steps that set what is not painted. @param continues see SettingHistory::add
@@ -271,6 +280,7 @@ private:
     std::optional<Camera> mFollowedCamera; ///< the model's first, as it was last
     SettingHistory mSettingHistory;
     DeformerStack mSavedDeformers;
+    std::vector<RigLight> mFirstLights, mSavedLights;
     OpenRequest mOpened;
     std::vector<std::shared_ptr<subedit::MaterialMap>> mRendered;
     std::vector<std::unique_ptr<subedit::Document>> mDocuments;

@@ -53,10 +53,12 @@ void Session::scaleSurroundings(double factor) {
             scaleCamera(**other, factor);
         }
     }
-    for (RigLight& item : rig.lights) {
-        item.light.position *= factor;
-        if (item.light.kind != Light::Kind::Directional) {
-            item.light.color *= factor * factor; // W/sr
+    for (std::vector<RigLight>* const lights : {&rig.lights, &mFirstLights, &mSavedLights}) {
+        for (RigLight& item : *lights) {
+            item.light.position *= factor;
+            if (item.light.kind != Light::Kind::Directional) {
+                item.light.color *= factor * factor; // W/sr
+            }
         }
     }
     scaleMillimeters(motion.now.deformers, factor);

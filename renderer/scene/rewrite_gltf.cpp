@@ -223,6 +223,9 @@ std::vector<std::string> rewriteGltf(const std::filesystem::path& source,
         if (changes.scale != 1.0) {
             scaleScenes(root, changes.scale);
         }
+        if (changes.lights) {
+            putLights(root, *changes.lights);
+        }
     } catch (const json::exception& error) { // in what the loader does not look at
         throw InputError(quoted(source),
                          fmt::format("is not laid out as glTF 2.0 is ({})", error.what()),

@@ -1,16 +1,18 @@
 #pragma once
 
 #include "renderer/scene/animated_deformer.h"
+#include "renderer/scene/gltf_lights.h"
 
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
-/// A glTF file with other materials and deformers, and all else as it is: nodes, skins, morph
-/// targets, animations, cameras, lights, textures, and what Celadon does not know. Buffers and
+/// A glTF file with other materials, deformers and lights, and all else as it is: nodes, skins,
+/// morph targets, animations, cameras, textures, and what Celadon does not know. Buffers and
 /// pictures, wherever they were, go into the one buffer of the new file, which may lie anywhere.
 namespace celadon::loaders {
 
@@ -19,6 +21,8 @@ struct GltfChanges {
     std::map<std::size_t, nlohmann::json> materials;
     DeformerStack deformers; ///< of the scene, in units of the new file
     double scale = 1.0;      ///< of everything
+    /// Instead of the file's, in units of the new one; nothing: these stay.
+    std::optional<std::vector<NamedLight>> lights = std::nullopt;
 };
 
 /// @return what had to stay behind, a line each

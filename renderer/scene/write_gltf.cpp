@@ -101,7 +101,7 @@ private:
 } // namespace
 
 void writeGltf(const World& world, const std::vector<json>& scattering, const json& extras,
-               const std::filesystem::path& file) {
+               const std::filesystem::path& file, std::span<const loaders::NamedLight> lights) {
     CELADON_ASSERT(scattering.size() == world.materials.size());
     json document = {{"asset", {{"version", "2.0"}, {"generator", "Celadon"}}},
                      {"scene", 0},
@@ -119,6 +119,7 @@ void writeGltf(const World& world, const std::vector<json>& scattering, const js
                                       ? nullptr
                                       : &scattering[static_cast<std::size_t>(part.scattering)]));
     }
+    loaders::putLights(document, lights);
     loaders::writeGltfFile(std::move(document), buffer, file);
 }
 

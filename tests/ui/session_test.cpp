@@ -640,6 +640,50 @@ TEST_F(SessionTest, ExportCanBeOpenedAgainWithTheSameMaterial) {
     EXPECT_FALSE(session.perform({"file.export", {{"file", "/nowhere/ball.gltf"}}}));
 }
 
+TEST_F(SessionTest, ExportKeepsTheLights) {
+    EXPECT_FALSE(session.areLightsModified());
+    session.execute({"light.preset", {{"name", "studio"}}});
+    session.execute({"light.add", {{"kind", "spot"}}});
+    session.execute({"light.add", {{"kind", "point"}}});
+    session.execute({"light.change", {{"light", 0}, {"on", false}}});
+    EXPECT_TRUE(session.areLightsModified());
+    EXPECT_TRUE(session.isAnythingModified());
+    EXPECT_FALSE(session.isModified());
+    const test::TemporaryFolder folder;
+    for (const char* const name : {"ball.gltf", "ball.glb"}) {
+        session.execute({"file.export", {{"file", (folder / name).string()}}});
+        EXPECT_FALSE(session.areLightsModified());
+        const Scene scene = loadScene((folder / name).string());
+        ASSERT_EQ(scene.lights.size() + 1, session.rig.lights.size()); // those that are on
+        for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+            const Light& kept = scene.lights[i];
+            const Light& light = session.rig.lights[i + 1].light;
+            EXPECT_EQ(kept.kind, light.kind);
+            EXPECT_LT(glm::distance(kept.color, light.color), 1e-5 * glm::length(light.color));
+            if (kept.kind != Light::Kind::Directional) { // in meters there
+                EXPECT_LT(glm::distance(1000.0 * kept.position, light.position), 1e-6);
+            }
+            if (kept.kind != Light::Kind::Point) {
+                EXPECT_LT(glm::distance(kept.direction, light.direction), 1e-6);
+            }
+        }
+    }
+    session.undo();
+    EXPECT_TRUE(session.areLightsModified());
+}
+
+TEST_F(SessionTest, SelectingWhatIsSelectedIsNoStep) {
+    paintStroke();
+    session.undo();
+    session.execute({"select.change", {{"what", "all"}}});
+    EXPECT_EQ(session.undo(), Session::Undone::Nothing);
+    EXPECT_NE(session.redo(), Session::Undone::Nothing);
+    session.undo();
+    session.execute({"select.change", {{"what", "none"}}});
+    EXPECT_EQ(session.redo(), Session::Undone::Nothing);
+    EXPECT_NE(session.undo(), Session::Undone::Nothing);
+}
+
 TEST_F(SessionTest, ExposureFitsTheLightsThatAModelBrings) {
     BoundingSphere object;
     object.radius = 500.0;

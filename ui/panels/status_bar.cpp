@@ -72,7 +72,7 @@ void drawStatusBar(const LayoutContext& context) {
             const std::string text =
                 fmt::format("{}   \xc2\xb7   {:.4g} mm across{}", session.opened().model,
                             2.0 * session.world().scatteringSphere.radius,
-                            session.isModified() ? "   \xc2\xb7   not saved" : "");
+                            session.isAnythingModified() ? "   \xc2\xb7   not saved" : "");
             ImGui::TextDisabled("%s", text.c_str());
             tooltip("The model, and the diameter of what scatters, mm");
         }

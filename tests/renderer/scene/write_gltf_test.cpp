@@ -240,6 +240,37 @@ TEST(RewriteGltf, ScalesFilesWithoutAndWithSeveralScenes) {
         UsageError);
 }
 
+TEST(RewriteGltf, LightsTakeThePlaceOfTheFilesOwn) {
+    const test::TemporaryFolder folder;
+    const World world = vaseWorld();
+    const auto lightAlong = [](const glm::dvec3& direction) {
+        loaders::NamedLight named{"sun", {}};
+        named.light.direction = glm::normalize(direction);
+        named.light.color = {3.0, 2.0, 0.0};
+        return named;
+    };
+    const std::vector first{lightAlong({0.0, 0.0, 1.0}), lightAlong({1.0, 2.0, 3.0})};
+    writeGltf(world, {{{"name", "wax"}}}, {}, folder / "a.gltf", first);
+    const std::vector<Light> read = loadScene((folder / "a.gltf").string()).lights;
+    ASSERT_EQ(read.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) { // the first is turned by half a circle
+        EXPECT_LT(glm::distance(read[i].direction, first[i].light.direction), 1e-9);
+        EXPECT_LT(glm::distance(read[i].color, first[i].light.color), 1e-9);
+    }
+    const std::vector second{lightAlong({0.0, -1.0, 0.0})};
+    loaders::GltfChanges changes;
+    changes.scale = 2.0;
+    changes.lights = second;
+    static_cast<void>(loaders::rewriteGltf(folder / "a.gltf", changes, folder / "b.glb"));
+    const Scene relit = loadScene((folder / "b.glb").string());
+    ASSERT_EQ(relit.lights.size(), 1u);
+    EXPECT_LT(glm::distance(relit.lights[0].direction, second[0].light.direction), 1e-9);
+    changes.lights = std::vector<loaders::NamedLight>();
+    static_cast<void>(loaders::rewriteGltf(folder / "a.gltf", changes, folder / "c.gltf"));
+    EXPECT_TRUE(loadScene((folder / "c.gltf").string()).lights.empty());
+    EXPECT_EQ(test::readText(folder / "c.gltf").find("punctual"), std::string::npos);
+}
+
 TEST(WriteGltf, NamesAFolderThatIsMissing) {
     const test::TemporaryFolder folder;
     EXPECT_THROW(writeGltf(vaseWorld(), {nlohmann::json::object()}, {}, folder / "no/such.gltf"),
