@@ -91,8 +91,8 @@ void addLightCommands(Session& session) {
         });
     add("light.add", "Adds a light: directional, point, spot", "add light",
         [&session](const Arguments& a) {
-            session.rig.lights.push_back(
-                newLight(parseLightKind(a.text("kind")), session.camera, object(session)));
+            session.rig.lights.push_back(newLight(parseLightKind(a.text("kind")), session.camera,
+                                                  object(session), session.rig.lights));
             session.selectedLight = static_cast<int>(session.rig.lights.size()) - 1;
         });
     add("light.remove", "Removes a light", "remove light", [&session](const Arguments& a) {

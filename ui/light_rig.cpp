@@ -15,6 +15,8 @@ namespace {
 
 constexpr double kGizmoDistance = 1.35; ///< of a directional light, in bounding sphere radii
 constexpr double kPlacedDistance = 1.6; ///< of a new point or spot light
+constexpr double kApart = 0.2;          ///< that gizmos of new lights are from others
+constexpr int kMostTurns = 17;          ///< of a new light about the object
 
 /// A directional light that travels along a direction given in the camera's frame: x to the right,
 /// y up, z away from the camera.
@@ -96,13 +98,25 @@ std::vector<RigLight> lightPreset(std::string_view name, const Camera& camera,
                      "choose back, rim, studio or front");
 }
 
-RigLight newLight(Light::Kind kind, const Camera& camera, const BoundingSphere& object) {
+RigLight newLight(Light::Kind kind, const Camera& camera, const BoundingSphere& object,
+                  std::span<const RigLight> others) {
     const CameraFrame frame = cameraFrame(camera);
     RigLight result = towards("", frame, {-0.6, -0.6, -0.5}, glm::dvec3(1.0));
     Light& light = result.light;
     light.kind = kind;
     const double distanceMm = kPlacedDistance * object.radius;
-    light.position = object.center - distanceMm * light.direction;
+    const auto place = [&] { light.position = object.center - distanceMm * light.direction; };
+    const auto isOverAnother = [&] {
+        return std::ranges::any_of(others, [&](const RigLight& other) {
+            return glm::distance(gizmoPosition(other.light, object), gizmoPosition(light, object)) <
+                   kApart * object.radius;
+        });
+    };
+    place();
+    for (int i = 0; i < kMostTurns && isOverAnother(); ++i) { // its gizmo would hide
+        light.direction = turned(light.direction, glm::radians(20.0));
+        place();
+    }
     // As much irradiance at the object's center as a directional light of 4 W/m^2 would bring.
     const double meters = distanceMm * 1e-3;
     light.color = glm::dvec3(kind == Light::Kind::Directional ? 4.0 : 4.0 * meters * meters);

@@ -54,9 +54,10 @@ struct LightRig {
 [[nodiscard]] std::vector<RigLight> lightPreset(std::string_view name, const Camera& camera,
                                                 const BoundingSphere& object);
 
-/// A light of a kind that shows something at once: near the object, above and to the right.
+/// A light of a kind that shows something at once: near the object, above and to the right, or
+/// further around it where another light is.
 [[nodiscard]] RigLight newLight(Light::Kind kind, const Camera& camera,
-                                const BoundingSphere& object);
+                                const BoundingSphere& object, std::span<const RigLight> others);
 
 [[nodiscard]] const char* lightKindName(Light::Kind kind);
 /// @throws UsageError

@@ -11,6 +11,12 @@ namespace celadon::ui {
 
 namespace {
 
+constexpr const char* kNothingSelected =
+    "Nothing is selected, so nothing changes: Select all, in the Edit menu, ends that";
+constexpr const char* kOutsideOfSelection =
+    "That lies outside of what is selected, so nothing changes: Select all, in the Edit menu, ends "
+    "that";
+
 void refuseDuringStroke(const Session& session) {
     if (session.isStrokeOpen()) {
         throw UsageError("the stroke", "has not ended", "finish it, or Escape gives it up");
@@ -114,6 +120,11 @@ void Session::edit(const subedit::EditCommand& command) {
 }
 
 void Session::tell(const subedit::EditReport& report, bool isSelection) {
+    if (isSelection) { // what was said of the one before
+        std::erase_if(notices, [](const Notice& notice) {
+            return notice.text == kNothingSelected || notice.text == kOutsideOfSelection;
+        });
+    }
     if (report.grownRadiusMm) {
         notify(Notice::Kind::Info, fmt::format("Profiles now reach to {:.3g} mm (r_s): the edit "
                                                "needed more range",
@@ -122,13 +133,9 @@ void Session::tell(const subedit::EditReport& report, bool isSelection) {
     if (report.texels == 0 && !isSelection && activeDocument() != nullptr) {
         const subedit::WeightMask& selection = activeDocument()->selection();
         if (selection.isZero()) {
-            notify(Notice::Kind::Warning,
-                   "Nothing is selected, so nothing changes: Select all, in the Edit menu, ends "
-                   "that");
+            notify(Notice::Kind::Warning, kNothingSelected);
         } else if (selection != subedit::WeightMask::full(selection.width(), selection.height())) {
-            notify(Notice::Kind::Warning,
-                   "That lies outside of what is selected, so nothing changes: "
-                   "Select all, in the Edit menu, ends that");
+            notify(Notice::Kind::Warning, kOutsideOfSelection);
         }
     }
     if (report.texels > 0 && 4 * report.rangeClamped > report.texels) {

@@ -15,6 +15,7 @@ namespace celadon::subedit {
 
 namespace {
 
+constexpr float kLeastTexels = 0.9f;           ///< of a radius: any dab then takes hold of a texel
 constexpr float kMostDabsBetweenPoints = 1e5f; ///< no hand does; a file might
 
 /// Weight of a texel whose normal makes this cosine with the dab's: paint ends where the surface
@@ -46,6 +47,7 @@ glm::vec3 normalizedOr(const glm::vec3& v, const glm::vec3& fallback) {
 StrokeMask::StrokeMask(const Surface& surface, const Brush& brush, const Mirror& mirror)
     : mSurface(surface),
       mBrush(brush),
+      mRadiusMm(std::max(brush.radiusMm, kLeastTexels * surface.texelSizeMm())),
       mMirror(mirror),
       mSides(mirroredSides(mirror)),
       mTiles((surface.texelCount() + kTileTexels - 1) / kTileTexels),
@@ -115,7 +117,7 @@ std::optional<StrokePoint> StrokeMask::resolve(const Surface& surface, const Str
 }
 
 void StrokeMask::add(const StrokePoint& given) {
-    const auto resolved = resolve(mSurface, given, mBrush.radiusMm);
+    const auto resolved = resolve(mSurface, given, mRadiusMm);
     if (!resolved) {
         mLast.reset(); // off the surface: the path goes on where it comes back
         mUntilNextMm = 0.0f;
@@ -144,7 +146,7 @@ void StrokeMask::add(const StrokePoint& given) {
         glm::vec3 center = glm::mix(last.positionMm, point.positionMm, t);
         // The chord between two points leaves a curved surface: back onto the nearest texel's
         // plane.
-        if (const auto texel = mSurface.nearest(center, normal, mBrush.radiusMm)) {
+        if (const auto texel = mSurface.nearest(center, normal, mRadiusMm)) {
             const glm::vec3& n = mSurface.normal(*texel);
             center -= n * glm::dot(n, center - mSurface.positionMm(*texel));
         }
@@ -161,7 +163,7 @@ void StrokeMask::addMirrored(const Dab& dab) {
 }
 
 void StrokeMask::addDab(const Dab& dab) {
-    const float radius = mBrush.radiusMm;
+    const float radius = mRadiusMm;
     const auto seed = mSurface.nearest(dab.centerMm, dab.normal, radius);
     if (!seed || !(dab.flow > 0.0f)) {
         return;

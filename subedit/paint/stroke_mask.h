@@ -57,6 +57,7 @@ private:
 
     const Surface& mSurface;
     Brush mBrush;
+    float mRadiusMm; ///< the brush's, or what reaches a texel wherever its center is
     Mirror mMirror;
     std::vector<glm::vec3> mSides;
     std::vector<std::unique_ptr<Tile>> mTiles;

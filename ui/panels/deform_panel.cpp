@@ -116,24 +116,18 @@ void drawList(Session& session) {
             command = {"deform.change", {{"deformer", i}, {"on", isOn}}};
         }
         tooltip("On or off");
-        ImGui::SameLine();
+        sameRow();
         const std::string label = fmt::format("{}{}", materialLabel(deformerName(deformer.kind)),
                                               deformer.lastSeconds() > 0.0 ? "  (keys)" : "");
-        const float width = ImGui::GetContentRegionAvail().x - 2.0f * (side + 4.0f);
-        // Beside a frame ImGui moves an item down to the frame's text; this one is as high as a
-        // frame.
-        ImGui::SetCursorPosY(ImGui::GetCursorPosY() - ImGui::GetStyle().FramePadding.y);
-        if (ImGui::Selectable(label.c_str(), session.motion.selected == i, 0, {width, side})) {
+        if (rowName(label.c_str(), session.motion.selected == i, 2)) {
             command = {"deform.select", {{"deformer", i}}};
         }
-        ImGui::SameLine();
-        ImGui::BeginGroup();
+        sameRow();
         if (ImGui::ArrowButton("##up", ImGuiDir_Up) && i > 0) {
             command = {"deform.order", {{"deformer", i}, {"to", i - 1}}};
         }
         tooltip("Earlier in the list");
-        ImGui::EndGroup();
-        ImGui::SameLine(0.0f, 4.0f);
+        sameRow();
         if (ImGui::Button("\xc3\x97", {side, 0.0f})) {
             command = {"deform.remove", {{"deformer", i}}};
         }
@@ -252,15 +246,12 @@ void drawLattice(Session& session, int index, const AnimatedDeformer& deformer) 
 void drawHandles(Session& session, const AnimatedDeformer& deformer) {
     for (int h = 0; h < static_cast<int>(deformer.handles.size()); ++h) {
         ImGui::PushID(h);
-        const float side = ImGui::GetFrameHeight();
-        const float width = ImGui::GetContentRegionAvail().x - side - 8.0f;
-        if (ImGui::Selectable(fmt::format("Handle {}", h + 1).c_str(), session.motion.control == h,
-                              0, {width, side})) {
+        if (rowName(fmt::format("Handle {}", h + 1).c_str(), session.motion.control == h, 1)) {
             session.perform(
                 {"deform.select", {{"deformer", session.motion.selected}, {"control", h}}});
         }
-        ImGui::SameLine();
-        const bool isRemoved = ImGui::Button("\xc3\x97", {side, 0.0f});
+        sameRow();
+        const bool isRemoved = ImGui::Button("\xc3\x97", {ImGui::GetFrameHeight(), 0.0f});
         tooltip("Lets go of it");
         ImGui::PopID();
         if (isRemoved) {

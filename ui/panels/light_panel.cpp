@@ -30,6 +30,12 @@ void drawPresets(Session& session) {
     }
 }
 
+const char* kindHelp(Light::Kind kind) {
+    return kind == Light::Kind::Directional ? "Directional: from far away, all one way"
+           : kind == Light::Kind::Point     ? "Point: from a place, to all sides"
+                                            : "Spot: from a place, within a cone";
+}
+
 void drawList(Session& session) {
     for (int i = 0; i < static_cast<int>(session.rig.lights.size()); ++i) {
         const RigLight& item = session.rig.lights[static_cast<std::size_t>(i)];
@@ -39,15 +45,13 @@ void drawList(Session& session) {
             session.perform({"light.change", {{"light", i}, {"on", isOn}}});
         }
         tooltip("On or off");
-        ImGui::SameLine();
+        sameRow();
         const std::string label = fmt::format("{}##{}", item.name.empty() ? "Light" : item.name, i);
-        const float width = ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight() - 4.0f;
-        if (ImGui::Selectable(label.c_str(), session.selectedLight == i, 0,
-                              {width, ImGui::GetFrameHeight()})) {
+        if (rowName(label.c_str(), session.selectedLight == i, 1)) {
             session.perform({"light.select", {{"light", i}}});
         }
-        tooltip(lightKindName(item.light.kind));
-        ImGui::SameLine();
+        tooltip(kindHelp(item.light.kind));
+        sameRow();
         const bool isRemoved = ImGui::Button("\xc3\x97", {ImGui::GetFrameHeight(), 0.0f});
         tooltip("Removes this light");
         ImGui::PopID();

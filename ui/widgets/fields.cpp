@@ -177,6 +177,21 @@ int choiceRow(const char* id, const char* const* labels, const char* const* help
     return clicked;
 }
 
+bool rowName(const char* label, bool isChosen, int buttons) {
+    const float side = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x;
+    const float width = ImGui::GetContentRegionAvail().x - static_cast<float>(buttons) * side;
+    ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, {0.0f, 0.5f});
+    ImGui::PushStyleColor(ImGuiCol_Button, isChosen ? palette().accentDim : ImVec4());
+    const bool isClicked = ImGui::Button(label, {width, 0.0f});
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar();
+    return isClicked;
+}
+
+void sameRow() {
+    ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);
+}
+
 void readout(const char* name, const std::string& value, const char* help) {
     ImGui::PushStyleColor(ImGuiCol_Text, palette().label);
     ImGui::TextUnformatted(name);

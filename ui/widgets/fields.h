@@ -24,6 +24,11 @@ bool colorField(const char* label, float rgb[3], const char* help, bool isTint =
 /// A row of words of which one is chosen. @return index that was clicked, -1: none
 int choiceRow(const char* id, const char* const* labels, const char* const* helps, int count,
               int current);
+/// The name of a row of a list, up to buttons that follow; as high as they are.
+/// @param buttons square ones, each after sameRow() @return whether it was clicked
+bool rowName(const char* label, bool isChosen, int buttons);
+/// The next item goes on in a row that rowName() has begun.
+void sameRow();
 /// A name and a value, for readouts.
 void readout(const char* name, const std::string& value, const char* help);
 

@@ -142,6 +142,26 @@ TEST(StrokeMask, DabsAreSpacedAlongThePathHoweverItIsGiven) {
     EXPECT_GT(weightAt(coarse, surface, 40, 16), 0.5f); // dabs add up
 }
 
+TEST(StrokeMask, ABrushNarrowerThanATexelPaintsALineWithoutGaps) {
+    const Surface surface(makeFlatSurface(40, 40, 40.0f)); // texels of 1 mm
+    for (const int down : {0, 11, 28}) {
+        StrokeMask mask(surface, {.radiusMm = 0.1f, .hardness = 0.5f});
+        StrokePoint first = at(surface, 2, 5);
+        StrokePoint last = at(surface, 30, 5 + down);
+        for (StrokePoint* const point : {&first, &last}) { // where four texels meet
+            point->positionMm += glm::vec3(0.5f, 0.5f, 0.0f);
+            mask.add(*point);
+        }
+        for (int column = 3; column < 29; ++column) {
+            float most = 0.0f;
+            for (int row = 0; row < 40; ++row) {
+                most = std::max(most, weightAt(mask, surface, column, row));
+            }
+            EXPECT_GT(most, 0.5f) << column << ", down " << down;
+        }
+    }
+}
+
 TEST(StrokeMask, OpacityBoundsWhatManyDabsReach) {
     const Surface surface(makeFlatSurface(32, 32, 32.0f));
     StrokeMask mask(surface, {.radiusMm = 6.0f, .flow = 0.5f, .opacity = 0.6f});
