@@ -25,6 +25,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -65,12 +66,14 @@ void checkFilesOfFrame(const RenderOptions& options, int frame) {
 /// Outputs that cannot be written are refused before the work, not after.
 void checkOutputs(const RenderOptions& options) {
     const FrameRange frames = options.frames.value_or(FrameRange{});
+    std::error_code reason;
     for (int frame = frames.first; frame <= frames.last; ++frame) {
         checkFilesOfFrame(options, frame);
         if (const std::filesystem::path model = modelOfFrame(options, frame);
-            options.sequence && !std::filesystem::exists(model)) {
+            options.sequence && !std::filesystem::exists(model, reason)) {
             throw InputError(fmt::format("'{}'", model.string()),
-                             fmt::format("no such file, for frame {} of --sequence", frame));
+                             fmt::format("{}, for frame {} of --sequence",
+                                         reason ? reason.message() : "no such file", frame));
         }
     }
     checkWritable(outputOfFrame(options, frames.first));
@@ -83,22 +86,28 @@ void warnOfIdleOptions(const RenderOptions& options) {
     if (const std::vector<std::string> idle = idleOptions(options); !idle.empty()) {
         log::warning("{}: of no effect without --scheme paper", fmt::join(idle, ", "));
     }
-    if (options.solver != Solver::PathTraced && (options.paths || options.noise > 0.0)) {
-        log::warning("{}: of no effect without --solver path-traced",
-                     options.paths ? "--paths" : "--noise");
+    std::vector<std::string> ofPaths;
+    if (options.paths) {
+        ofPaths.emplace_back("--paths");
+    }
+    if (options.noise > 0.0) {
+        ofPaths.emplace_back("--noise");
+    }
+    if (options.solver != Solver::PathTraced && !ofPaths.empty()) {
+        log::warning("{}: of no effect without --solver path-traced", fmt::join(ofPaths, ", "));
     }
 }
 
 /// Paths traced of all, or how far the error has come towards the one that is asked for: it falls
 /// as the root of their number.
 std::function<void(std::uint64_t, double)> pathProgress(const PathTracedSettings& settings) {
-    constexpr std::size_t kSteps = 1000;
-    return [bar = std::make_shared<Progress>("paths", kSteps), all = settings.paths,
-            noise = settings.noise](std::uint64_t paths, double relativeError) {
+    constexpr std::size_t kSteps = 100;
+    return [bar = std::make_shared<Progress>("path tracing", kSteps), all = settings.paths,
+            noise = settings.noise, most = 0.0](std::uint64_t paths, double relativeError) mutable {
         const double byCount = static_cast<double>(paths) / static_cast<double>(all);
         const double byNoise = relativeError > 0.0 ? noise / relativeError : 0.0;
-        const double done = std::min(std::max(byCount, byNoise * byNoise), 1.0);
-        bar->update(static_cast<std::size_t>(done * static_cast<double>(kSteps)));
+        most = std::min(std::max({most, byCount, byNoise * byNoise}), 1.0); // noise may grow again
+        bar->update(static_cast<std::size_t>(most * static_cast<double>(kSteps)));
     };
 }
 
@@ -193,9 +202,16 @@ void writePicture(const RenderOptions& options, const std::filesystem::path& fil
     writeDisplayImage(file, toDisplay(image, display));
 }
 
-/// A black picture is never silent, nor one of infinities.
-void explainLight(const World& world, const Camera& camera, const RenderedFrame& frame,
-                  const RenderOptions& options) {
+void warnOfInfinities(const FloatImage& image) {
+    if (!std::ranges::all_of(image.pixels, [](float value) { return std::isfinite(value); })) {
+        log::warning("values of the picture are beyond all numbers: lights or environment are too "
+                     "bright");
+    }
+}
+
+/// A black picture is never silent.
+void explainDarkness(const World& world, const Camera& camera, const RenderedFrame& frame,
+                     const RenderOptions& options) {
     const CameraView view = makeCameraView(camera, options.size.x, options.size.y);
     if (isOutsideView(view, world.sceneSphere)) {
         log::warning(
@@ -214,10 +230,7 @@ void explainLight(const World& world, const Camera& camera, const RenderedFrame&
             sum += static_cast<double>(frame.image.pixels[i + c]);
         }
     }
-    if (!std::isfinite(sum)) {
-        log::warning("values of the picture are beyond all numbers: lights or environment are too "
-                     "bright");
-    } else if (sum <= 0.0) {
+    if (sum <= 0.0) {
         log::warning(
             "no light reaches the visible surface: check the direction, position and color "
             "of the lights");
@@ -250,7 +263,7 @@ void tellNoise(const ReferenceError& noise, const RenderOptions& options) {
         log::info("relative error {:.3g} (standard)", noise.relativeError);
         if (options.solver == Solver::PathTraced && options.noise > 0.0 &&
             noise.relativeError > options.noise) {
-            log::warning("relative error {:.3g}: all --paths are traced before --noise {:g}",
+            log::warning("relative error {:.3g}: all paths are traced before --noise {:g}",
                          noise.relativeError, options.noise);
         }
     }
@@ -301,7 +314,7 @@ public:
         frame.stats.milliseconds.deformation = deformationMs;
         frame.stats.milliseconds.total += deformationMs;
         const World& shown = mPosed ? *mPosed : mWorld;
-        explainLight(shown, camera, frame, mOptions);
+        explainDarkness(shown, camera, frame, mOptions);
         if (frame.seesScattering) {
             warnAboutRadius(shown, frame.stats);
         }
@@ -309,6 +322,7 @@ public:
         if (mOptions.environmentBehind) {
             frame.image = compositeOverEnvironment(std::move(frame.image), mEnvironment, camera);
         }
+        warnOfInfinities(frame.image);
         return frame;
     }
 

@@ -23,7 +23,8 @@ bool halveLargest(std::vector<glm::ivec3>& sizes) {
 
 } // namespace
 
-FittedMaterials::FittedMaterials(std::span<const MaterialPointer> materials, const HasRoom& hasRoom)
+FittedMaterials::FittedMaterials(std::span<const MaterialPointer> materials, const HasRoom& hasRoom,
+                                 const std::function<void()>& beforeEach)
     : mMaps(materials.begin(), materials.end()), mSmaller(materials.size()) {
     std::vector<glm::ivec3> sizes;
     for (const MaterialPointer& map : materials) {
@@ -39,6 +40,9 @@ FittedMaterials::FittedMaterials(std::span<const MaterialPointer> materials, con
         const glm::ivec3& size = sizes[i];
         if (size.x == map.width && size.y == map.height) {
             continue;
+        }
+        if (beforeEach) {
+            beforeEach();
         }
         mSmaller[i] =
             std::make_shared<subedit::MaterialMap>(subedit::resizeMaterial(map, size.x, size.y));

@@ -24,7 +24,10 @@ public:
 
     /// The largest map is halved until all have room. Where no size helps, all are left as they
     /// are.
-    FittedMaterials(std::span<const MaterialPointer> materials, const HasRoom& hasRoom);
+    /// @param beforeEach called before a map is made, which takes a second or two a gigabyte; what
+    ///                   it throws ends it. May be empty
+    FittedMaterials(std::span<const MaterialPointer> materials, const HasRoom& hasRoom,
+                    const std::function<void()>& beforeEach = {});
 
     [[nodiscard]] std::span<const MaterialPointer> maps() const { return mMaps; }
     /// One for each map that is smaller than the world's.

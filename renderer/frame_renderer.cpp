@@ -83,7 +83,8 @@ std::vector<double> directLightKey(const Camera& camera, std::span<const Light> 
 GpuScene::GpuScene(const World& theWorld, const FrameSettings& settings, const MakingProgress& tell)
     : world(theWorld),
       gpuWorld(theWorld, settings.rasterizer),
-      fitted(theWorld.materials, GpuMaterials::hasRoom),
+      fitted(theWorld.materials, GpuMaterials::hasRoom,
+             tell ? [&tell] { tell(0.0f); } : std::function<void()>()),
       materials(fitted.maps(), settings.splatting.energy, settings.splatting.epsilon,
                 settings.exitFresnel, tell, settings.splatting.rangeTable) {
     shaders.define(sceneDefines(theWorld, gpuWorld.rasterizer()));

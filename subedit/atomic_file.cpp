@@ -60,8 +60,22 @@ OutputError systemError(const fs::path& target, const fs::path& resolved, int co
     }
 }
 
-/// Follows links, so that what a link points to is replaced and not the link.
-/// @throws OutputError for what could never become a regular file
+/// A name that no other process and no other thread of this one uses.
+int createTemporary(const fs::path& folder, fs::path& name) {
+    static std::atomic<unsigned> counter{0};
+    for (int attempt = 0; attempt < kNameAttempts; ++attempt) {
+        name = folder / fmt::format(".celadon-{}-{}.tmp", ::getpid(), counter++);
+        const int descriptor =
+            ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kDefaultMode);
+        if (descriptor >= 0 || errno != EEXIST) {
+            return descriptor;
+        }
+    }
+    return -1;
+}
+
+} // namespace
+
 fs::path resolveTarget(const fs::path& target) {
     if (target.empty()) {
         throw OutputError("output", "no file name is given");
@@ -97,22 +111,6 @@ fs::path resolveTarget(const fs::path& target) {
     }
     return resolved;
 }
-
-/// A name that no other process and no other thread of this one uses.
-int createTemporary(const fs::path& folder, fs::path& name) {
-    static std::atomic<unsigned> counter{0};
-    for (int attempt = 0; attempt < kNameAttempts; ++attempt) {
-        name = folder / fmt::format(".celadon-{}-{}.tmp", ::getpid(), counter++);
-        const int descriptor =
-            ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, kDefaultMode);
-        if (descriptor >= 0 || errno != EEXIST) {
-            return descriptor;
-        }
-    }
-    return -1;
-}
-
-} // namespace
 
 AtomicFile::AtomicFile(const fs::path& target) : mTarget(target), mResolved(resolveTarget(target)) {
     // A name that the file system refuses should be refused now, not at the rename.

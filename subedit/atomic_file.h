@@ -15,6 +15,13 @@ namespace celadon {
 /// Leaves no trace. @throws OutputError naming the target and what stands in the way
 void checkWritable(const std::filesystem::path& target);
 
+/// Where a name leads: symbolic links are followed, and what the last one names need not exist.
+/// Files that lie beside an output lie beside this. @throws OutputError as checkWritable()
+[[nodiscard]] std::filesystem::path resolveTarget(const std::filesystem::path& target);
+
+/// What outputs say instead of the time of writing: the same content is to be the same bytes.
+inline constexpr const char* kNoDate = "1970:01:01 00:00:00";
+
 /// A temporary file that becomes `target` on commit() and vanishes when destroyed before that.
 class AtomicFile {
 public:

@@ -48,8 +48,6 @@ public:
 
     /// Acts, after asking where changes would be lost.
     void guard(const std::function<void()>& act);
-    /// What guard() asks where lights have unsaved changes.
-    void guardLights(const std::function<void()>& act);
     /// What guard() asks where a material has unsaved changes.
     void askAboutMaterial(const std::function<void()>& act);
     void ask(const std::string& title, const std::string& text,
@@ -84,6 +82,7 @@ private:
     void replaceDeformers(const std::filesystem::path& file);
     void guardMaterial(const std::function<void()>& act);
     void guardDeformers(const std::function<void()>& act);
+    void guardLights(const std::function<void()>& act);
 
     Session& mSession;
     BackgroundOpen& mOpen;

@@ -4,6 +4,7 @@
 #include "renderer/scene/load_scene.h"
 #include "renderer/scene/rewrite_gltf.h"
 #include "renderer/scene/write_gltf.h"
+#include "subedit/atomic_file.h"
 #include "subedit/document/edit_progress.h"
 #include "subedit/errors.h"
 #include "subedit/map/material_file.h"
@@ -89,11 +90,12 @@ std::vector<loaders::NamedLight> exportLights(const Session& session) {
 
 /// A glTF that was opened keeps all that it has but for materials, deformers and lights, unless its
 /// vertices had to change for an automatic atlas. Of other models a glTF is made.
-void exportGltf(Session& session, const std::filesystem::path& file) {
+void exportGltf(Session& session, const std::filesystem::path& name) {
     if (!session.hasWorld() || !session.services().describeMaterial) {
         throw UsageError("export", "there is no model", "open one first");
     }
-    loaders::checkGltfName(file);
+    loaders::checkGltfName(name);
+    const std::filesystem::path file = resolveTarget(name); // its materials lie beside it
     const std::filesystem::path model = session.opened().model;
     std::error_code ignored;
     if (std::filesystem::equivalent(model, file, ignored)) {
@@ -138,10 +140,8 @@ void exportGltf(Session& session, const std::filesystem::path& file) {
             lost = loaders::rewriteGltf(model, changes, file);
             writeMaterials();
         });
-        if (changes.lights && std::ranges::any_of(session.rig.lights, [](const RigLight& item) {
-                return item.followed.has_value();
-            })) {
-            lost.emplace_back("movements of lights");
+        if (changes.lights && !world.lights.empty()) {
+            lost.emplace_back("names, ranges and movements of lights");
         }
     } else {
         nlohmann::json extras = nlohmann::json::object();
@@ -157,6 +157,9 @@ void exportGltf(Session& session, const std::filesystem::path& file) {
             writeMaterials();
         });
         lost = leftOut(session);
+    }
+    if (std::ranges::any_of(session.rig.lights, [](const RigLight& item) { return !item.isOn; })) {
+        lost.emplace_back("lights that are off");
     }
     session.markLightsSaved();
     session.notify(Notice::Kind::Info,

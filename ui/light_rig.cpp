@@ -185,15 +185,20 @@ float fittingExposureEv(std::span<const Light> lights, const BoundingSphere& obj
                                  : 0.0f;
 }
 
+void turnAround(const glm::dvec3& center, std::span<RigLight> lights, double degrees) {
+    const double radians = glm::radians(degrees);
+    for (RigLight& item : lights) {
+        item.light.position = center + turned(item.light.position - center, radians);
+        item.light.direction = turned(item.light.direction, radians);
+    }
+}
+
 void turnAround(Camera& camera, LightRig& rig, double degrees) {
     const double radians = glm::radians(degrees);
     const glm::dvec3 center = camera.at;
     camera.eye = center + turned(camera.eye - center, radians);
     camera.up = turned(camera.up, radians);
-    for (RigLight& item : rig.lights) {
-        item.light.position = center + turned(item.light.position - center, radians);
-        item.light.direction = turned(item.light.direction, radians);
-    }
+    turnAround(center, rig.lights, degrees);
     if (rig.environment) {
         rig.environment->turnDegrees =
             std::remainder(rig.environment->turnDegrees + degrees, 360.0);

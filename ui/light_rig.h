@@ -76,6 +76,8 @@ struct LightRig {
 /// @return 0 within a stop of the default light, and where there is none
 [[nodiscard]] float fittingExposureEv(std::span<const Light> lights, const BoundingSphere& object);
 
+/// Lights turned about the vertical axis through a point, from +z towards +x.
+void turnAround(const glm::dvec3& center, std::span<RigLight> lights, double degrees);
 /// The camera and all lights turned about the vertical axis through the camera's target: what is
 /// seen is the object turning the other way.
 void turnAround(Camera& camera, LightRig& rig, double degrees);

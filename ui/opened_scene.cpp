@@ -28,7 +28,7 @@ double shortRadiusMm(const MaterialMap& map) {
     return sum / (kAcross * kAcross);
 }
 
-/// Where no light view of a quick picture has texels as fine as a range, they show.
+/// Where no light view of a quick picture has texels as fine as a range, it is drawn wider.
 void warnOfLargeModel(World& world) {
     constexpr double kFinestTexels = 2048.0; // across the model
     constexpr double kTexelsOfRange = 2.0;
@@ -37,9 +37,9 @@ void warnOfLargeModel(World& world) {
         const double radiusMm = shortRadiusMm(*material);
         if (radiusMm > 0.0 && radiusMm * kFinestTexels < kTexelsOfRange * diameterMm) {
             world.warnings.push_back(fmt::format(
-                "'{}' scatters over {:.2g} mm, too little to see on a model of {:.4g} mm, and "
-                "pictures show a lattice. If it is meant to be smaller, Model across in the "
-                "Material panel makes it so, as do --diameter and --scale",
+                "'{}' scatters over {:.2g} mm, too little to see on a model of {:.4g} mm, which "
+                "looks opaque. If it is meant to be smaller, Model across in the Material panel "
+                "makes it so, as do --diameter and --scale",
                 material->name, radiusMm, diameterMm));
         }
     }

@@ -42,6 +42,7 @@ void PictureWorker::setWorld(std::shared_ptr<const World> world,
         mSelections.clear();
         mRequest.reset();
         mPicture.reset();
+        mWarnings.clear();
         mInterrupt = true;
     }
     mWake.notify_all();
@@ -153,7 +154,10 @@ void PictureWorker::run() {
             mError = std::move(problem);
         }
         if (renderers) {
-            std::ranges::move(renderers->takeWarnings(), std::back_inserter(mWarnings));
+            std::vector<std::string> warnings = renderers->takeWarnings();
+            if (!mNewWorld) { // else they are of one that is closed
+                std::ranges::move(warnings, std::back_inserter(mWarnings));
+            }
         }
         lock.unlock();
         mNotify();

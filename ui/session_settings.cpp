@@ -64,6 +64,9 @@ Camera Session::turnLights(double degrees) {
     Camera turned = camera;
     turnAround(turned, rig, degrees);
     mSettingHistory.turnLights(camera, degrees);
+    for (std::vector<RigLight>* const lights : {&mFirstLights, &mSavedLights}) {
+        turnAround(camera.at, *lights, degrees); // who only looks has changed nothing
+    }
     return turned;
 }
 

@@ -124,7 +124,9 @@ SubsurfaceParameters parametersFromJson(const json& parameters, const std::strin
     if (fields.has(names.scale)) {
         radius *= fields.rgb(names.scale, 0.0, 1e9);
     } else {
-        const glm::dvec3& scale = names.defaultScale;
+        // Three radii are those of the channels already.
+        const glm::dvec3 scale =
+            parameters[names.radius].is_number() ? names.defaultScale : glm::dvec3(1.0);
         radius *= scale;
         notes.push_back(scale == glm::dvec3(1.0)
                             ? fmt::format("no {}: taken as 1", names.scale)

@@ -39,8 +39,6 @@ constexpr std::array<FormatEntry, 4> kFormats = {{{ImageFormat::Exr, "openexr", 
 
 /// No picture that Celadon writes or reads is larger: 2^30 floats are 4 GiB.
 constexpr std::uint64_t kMaxValues = std::uint64_t{1} << 30;
-/// The library would put the time of writing here; the same picture is to be the same bytes.
-constexpr const char* kNoDate = "1970:01:01 00:00:00";
 constexpr int kMaxSide = 65536;
 constexpr int kMaxChannels = 1024;
 /// How many values a byte of a file can stand for. Zip and deflate reach 1032 to 1; the rest is

@@ -132,7 +132,10 @@ PathTracedResult PathTraced::solve(const CameraView& camera, glm::ivec2 size,
         }
         const bool isQuiet = mSettings.noise > 0.0 && round + 1 >= kLeastRoundsForNoise &&
                              result.relativeError <= mSettings.noise;
-        if (isQuiet || (cancel != nullptr && *cancel)) {
+        // Nothing was seen of so many paths: there is no error that more could bring down.
+        const bool isDark = mSettings.noise > 0.0 && !std::isfinite(result.relativeError) &&
+                            result.paths >= PathTracedSettings().paths;
+        if (isQuiet || isDark || (cancel != nullptr && *cancel)) {
             break;
         }
     }

@@ -71,7 +71,8 @@ std::size_t appendView(json& document, std::string& buffer, std::string_view byt
     return views.size() - 1;
 }
 
-void writeGltfFile(json document, const std::string& buffer, const std::filesystem::path& file) {
+void writeGltfFile(json document, const std::string& buffer, const std::filesystem::path& name) {
+    const std::filesystem::path file = resolveTarget(name); // the buffer lies beside it
     document.erase("buffers");
     if (buffer.empty()) {
         writeFileAtomically(file, file.extension() == ".glb" ? binaryGltf(document, std::nullopt)

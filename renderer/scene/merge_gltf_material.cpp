@@ -33,11 +33,11 @@ void mergeInto(json& target, const json& made) {
     }
 }
 
-/// The new factor is the whole color: a viewer would multiply it by the old picture. One that cuts
+/// A new factor is the whole color: a viewer would multiply it by the old picture. One that cuts
 /// holes has to stay.
-void dropColorTexture(json& material) {
-    if (material.value("alphaMode", "OPAQUE") == "OPAQUE" &&
-        material.contains("pbrMetallicRoughness")) {
+void dropColorTexture(json& material, const json& made) {
+    if (made.contains(json::json_pointer("/pbrMetallicRoughness/baseColorFactor")) &&
+        material.value("alphaMode", "OPAQUE") == "OPAQUE") {
         material["pbrMetallicRoughness"].erase("baseColorTexture");
     }
 }
@@ -82,7 +82,7 @@ void mergeGltfMaterial(json& document, std::size_t material, const json& made) {
         json& target = document["materials"][material];
         const json name = target.value("name", made["name"]);
         mergeInto(target, made);
-        dropColorTexture(target);
+        dropColorTexture(target, made);
         target["name"] = name;
     } else if (wearWhereNone(document, count)) {
         document["materials"].push_back(made);

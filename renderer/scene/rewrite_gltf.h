@@ -12,8 +12,9 @@
 #include <vector>
 
 /// A glTF file with other materials, deformers and lights, and all else as it is: nodes, skins,
-/// morph targets, animations, cameras, textures, and what Celadon does not know. Buffers and
-/// pictures, wherever they were, go into the one buffer of the new file, which may lie anywhere.
+/// morph targets, animations, cameras, textures (but for the base color of what gets a new
+/// material), and what Celadon does not know. Buffers and pictures, wherever they were, go into the
+/// one buffer of the new file, which may lie anywhere.
 namespace celadon::loaders {
 
 struct GltfChanges {

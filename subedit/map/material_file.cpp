@@ -278,8 +278,7 @@ OIIO::ImageSpec fileSpec(const MaterialMap& map, StoredPrecision precision) {
     spec.nchannels = static_cast<int>(spec.channelnames.size());
     spec.attribute("compression", "zip");
     spec.attribute("Software", "Celadon");
-    // The library would put the time of writing here; the same material is to be the same bytes.
-    spec.attribute("DateTime", "1970:01:01 00:00:00");
+    spec.attribute("DateTime", kNoDate);
     spec.attribute("subedit:version", kFileVersion);
     spec.attribute("subedit:segments", map.segments);
     spec.attribute("subedit:maxRadius", map.maxRadiusMm);

@@ -175,7 +175,7 @@ void writeTableExr(const TableFile& table, const fs::path& file) {
     spec.channelnames = {"meanProfile", "minimalRadius"};
     spec.attribute("compression", "zip");
     spec.attribute("Software", "Celadon");
-    spec.attribute("DateTime", "1970:01:01 00:00:00"); // the same table, the same bytes
+    spec.attribute("DateTime", kNoDate);
     spec.attribute("celadon:minT", static_cast<float>(table.T.front()));
     spec.attribute("celadon:maxT", static_cast<float>(table.T.back()));
     spec.attribute("celadon:epsilon", static_cast<float>(table.epsilon));

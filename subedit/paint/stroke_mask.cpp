@@ -15,7 +15,7 @@ namespace celadon::subedit {
 
 namespace {
 
-constexpr float kLeastTexels = 0.9f;           ///< of a radius: any dab then takes hold of a texel
+constexpr float kLeastTexels = 0.9f; ///< of a radius: a dab takes hold of a texel of median size
 constexpr float kMostDabsBetweenPoints = 1e5f; ///< no hand does; a file might
 
 /// Weight of a texel whose normal makes this cosine with the dab's: paint ends where the surface
@@ -126,13 +126,13 @@ void StrokeMask::add(const StrokePoint& given) {
     const StrokePoint& point = *resolved;
     if (!mLast || point.isLifted) {
         addMirrored({point.positionMm, point.normal, mBrush.flow * point.pressure});
-        mUntilNextMm = mBrush.spacing * mBrush.radiusMm;
+        mUntilNextMm = mBrush.spacing * mRadiusMm;
         mLast = point;
         return;
     }
     const StrokePoint last = *mLast;
     const float length = glm::distance(last.positionMm, point.positionMm);
-    const float stepMm = mBrush.spacing * mBrush.radiusMm;
+    const float stepMm = mBrush.spacing * mRadiusMm;
     if (length / stepMm > kMostDabsBetweenPoints) {
         throw InputError("a stroke",
                          fmt::format("needs {:.0f} dabs between two points {:g} mm apart",

@@ -20,6 +20,7 @@ public:
     StrokeMask(const Surface& surface, const Brush& brush, const Mirror& mirror = {});
 
     /// Goes on to `point`: a dab at the first one, then one every `spacing` radii along the path.
+    /// A radius below a texel counts as one.
     /// A lifted point has a dab of its own, and nothing between it and the one before.
     /// The same points give the same weights, however they are grouped into calls.
     /// @throws InputError if two points are so far apart that 100,000 dabs lie between them

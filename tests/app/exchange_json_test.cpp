@@ -75,6 +75,10 @@ TEST(ExchangeJson, WhatAFileLeavesOutIsAsTheConventionHasIt) {
     EXPECT_EQ(p.eta, 1.5);
     EXPECT_THAT(notes, ElementsAre(HasSubstr("no subsurface_radius_scale"),
                                    HasSubstr("'subsurface_radius_scal' is not known")));
+    const SubsurfaceParameters three =
+        parametersFromJson({{"subsurface_color", 0.5}, {"subsurface_radius", {3.0, 2.0, 1.0}}}, "f",
+                           Convention::OpenPbr, 1.0, notes);
+    EXPECT_EQ(three.meanFreePathMm, glm::dvec3(3.0, 2.0, 1.0));
 }
 
 TEST(ExchangeJson, ForwardScatteringIsReducedBySimilarity) {

@@ -140,11 +140,6 @@ TEST_F(MaterialEdit, RefusesBadInput) {
     expectRefused(commands(R"({"command": "select", "step": "similar", "tolerance": 0.1,
                                "point": {"positionMm": [1, 2, 300]}})"),
                   3, AllOf(HasSubstr("/commands/0"), HasSubstr("not on the surface")));
-    expectRefused(commands(R"({"command": "stroke",
-                               "operator": {"name": "scale-albedo", "factor": [1, 1, 1]},
-                               "brush": {"radiusMm": 0.001, "spacing": 0.02},
-                               "path": [{"uv": [0, 0]}, {"uv": [1, 1]}]})"),
-                  3, AllOf(HasSubstr("/commands/0"), HasSubstr("dabs")));
     const test::ProgramResult noStrokes =
         test::runInProcess({"material", "edit", "yellow_wax", "-o", path("x.subedit.exr")});
     EXPECT_EQ(noStrokes.exitCode, 2);

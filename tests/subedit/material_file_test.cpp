@@ -102,6 +102,13 @@ TEST_F(MaterialFile, TheSameMaterialIsTheSameBytes) {
     EXPECT_EQ(content(folder / "again.subedit.exr"), first);
 }
 
+TEST_F(MaterialFile, WhatCouldNotBeReadIsNotWritten) {
+    MaterialMap map = test::varyingMaterial(2, 2, 4);
+    map.maxRadiusMm = 2e6f;
+    EXPECT_THROW(writeMaterial(map, file), OutputError);
+    EXPECT_FALSE(std::filesystem::exists(file));
+}
+
 TEST_F(MaterialFile, KnotsPast99AreFoundByName) {
     const MaterialMap map = test::exponentialMaterial(130, 13.0f, {1.0f, 2.0f, 3.0f});
     writeMaterial(map, file, StoredPrecision::Float);

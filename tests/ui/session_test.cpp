@@ -672,6 +672,25 @@ TEST_F(SessionTest, ExportKeepsTheLights) {
     EXPECT_TRUE(session.areLightsModified());
 }
 
+TEST_F(SessionTest, LookingAroundIsNoChangeOfLights) {
+    session.execute({"camera.turntable", {{"degrees", 77.0}}});
+    EXPECT_FALSE(session.areLightsModified());
+    EXPECT_FALSE(session.areLightsOther());
+}
+
+TEST_F(SessionTest, NewLightsStandBesideOthers) {
+    for (int i = 0; i < 3; ++i) {
+        session.execute({"light.add", {{"kind", i == 1 ? "spot" : "point"}}});
+    }
+    const auto& lights = session.rig.lights;
+    for (std::size_t i = lights.size() - 3; i < lights.size(); ++i) {
+        for (std::size_t j = i + 1; j < lights.size(); ++j) {
+            EXPECT_GT(glm::distance(lights[i].light.position, lights[j].light.position),
+                      0.1 * session.world().scatteringSphere.radius);
+        }
+    }
+}
+
 TEST_F(SessionTest, SelectingWhatIsSelectedIsNoStep) {
     paintStroke();
     session.undo();

@@ -58,6 +58,16 @@ TEST(Exr, KeepsFloatsAndNamesExactly) {
     EXPECT_EQ(folder.entryCount(), 1u);
 }
 
+TEST(Exr, TheSamePictureIsTheSameBytes) {
+    const TemporaryFolder folder;
+    const FloatImage image = noiseImage(9, 7, {"R", "G", "B", "A"}, 1);
+    writeExr(folder / "a.exr", image);
+    writeDisplayImage(folder / "a.tif", image);
+    for (const char* const name : {"a.exr", "a.tif"}) { // and not the time of writing
+        EXPECT_NE(readText(folder / name).find("1970:01:01"), std::string::npos) << name;
+    }
+}
+
 TEST(Exr, HalvesOnlyTheColor) {
     const TemporaryFolder folder;
     const FloatImage image =

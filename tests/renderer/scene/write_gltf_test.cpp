@@ -257,14 +257,24 @@ TEST(RewriteGltf, LightsTakeThePlaceOfTheFilesOwn) {
         EXPECT_LT(glm::distance(read[i].direction, first[i].light.direction), 1e-9);
         EXPECT_LT(glm::distance(read[i].color, first[i].light.color), 1e-9);
     }
-    const std::vector second{lightAlong({0.0, -1.0, 0.0})};
+    std::vector second{lightAlong({0.0, -1.0, 0.0}), lightAlong({0.3, -1.0, 0.0})};
+    second[1].light.kind = Light::Kind::Spot; // where it is, whatever the rest is scaled by
+    second[1].light.position = {0.1, 0.2, 0.3};
+    second[1].light.innerConeRadians = 0.2;
+    second[1].light.outerConeRadians = 0.4;
     loaders::GltfChanges changes;
     changes.scale = 2.0;
     changes.lights = second;
     static_cast<void>(loaders::rewriteGltf(folder / "a.gltf", changes, folder / "b.glb"));
     const Scene relit = loadScene((folder / "b.glb").string());
-    ASSERT_EQ(relit.lights.size(), 1u);
-    EXPECT_LT(glm::distance(relit.lights[0].direction, second[0].light.direction), 1e-9);
+    ASSERT_EQ(relit.lights.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_LT(glm::distance(relit.lights[i].direction, second[i].light.direction), 1e-9);
+    }
+    EXPECT_EQ(relit.lights[1].kind, Light::Kind::Spot);
+    EXPECT_LT(glm::distance(relit.lights[1].position, second[1].light.position), 1e-9);
+    EXPECT_NEAR(relit.lights[1].innerConeRadians, 0.2, 1e-9);
+    EXPECT_NEAR(relit.lights[1].outerConeRadians, 0.4, 1e-9);
     changes.lights = std::vector<loaders::NamedLight>();
     static_cast<void>(loaders::rewriteGltf(folder / "a.gltf", changes, folder / "c.gltf"));
     EXPECT_TRUE(loadScene((folder / "c.gltf").string()).lights.empty());

@@ -162,6 +162,26 @@ TEST(StrokeMask, ABrushNarrowerThanATexelPaintsALineWithoutGaps) {
     }
 }
 
+TEST(StrokeMask, RefusesMoreDabsThanAnyHandMakes) {
+    const Surface surface(makeFlatSurface(2000, 2, 2000.0f)); // texels of 1 mm
+    StrokeMask mask(surface, {.radiusMm = 0.001f, .spacing = 0.02f});
+    mask.add(at(surface, 0, 0));
+    EXPECT_THROW(mask.add(at(surface, 1999, 0)), InputError);
+}
+
+TEST(StrokeMask, FlowDoesNotGrowWhereBrushesAreNarrow) {
+    const Surface surface(makeFlatSurface(40, 40, 40.0f)); // texels of 1 mm
+    const auto along = [&](float radiusMm) {
+        StrokeMask mask(surface, {.radiusMm = radiusMm, .flow = 0.05f});
+        mask.add(at(surface, 2, 5));
+        mask.add(at(surface, 30, 5));
+        return weightAt(mask, surface, 15, 5);
+    };
+    EXPECT_GT(along(0.1f), 0.0f);
+    EXPECT_EQ(along(0.1f), along(0.6f));
+    EXPECT_NEAR(along(0.1f), along(1.0f), 0.1f);
+}
+
 TEST(StrokeMask, OpacityBoundsWhatManyDabsReach) {
     const Surface surface(makeFlatSurface(32, 32, 32.0f));
     StrokeMask mask(surface, {.radiusMm = 6.0f, .flow = 0.5f, .opacity = 0.6f});
