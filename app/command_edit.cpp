@@ -6,6 +6,7 @@
 #include "app/render_motion.h"
 #include "app/render_options.h"
 #include "app/render_scene.h"
+#include "renderer/scene/light.h"
 #include "subedit/errors.h"
 #include "ui/editor.h"
 
@@ -158,7 +159,7 @@ void edit(EditOptions o) {
         if (!scene.lights.empty()) {
             session.rig.lights.clear();
             for (const Light& light : lightsOf(options, session.world(), session.camera)) {
-                session.rig.lights.push_back({ui::lightKindName(light.kind), true, light});
+                session.rig.lights.push_back({lightKindName(light.kind), true, light});
             }
         } else if (session.world().lights.empty()) {
             session.rig.lights =

@@ -38,7 +38,8 @@ MotionRequest motionOf(const RenderOptions& options) {
             options.frames && !options.sequence};
 }
 
-/// What is read and written in a frame: nothing may be written over something else.
+/// What is read and written in a frame: nothing may be written over something else, and models of
+/// a sequence have to be there.
 void checkFilesOfFrame(const RenderOptions& options, int frame) {
     std::vector<NamedFile> outputs{{"--output", outputOfFrame(options, frame)}};
     if (options.stats) {
@@ -61,20 +62,19 @@ void checkFilesOfFrame(const RenderOptions& options, int frame) {
         inputs.push_back({"--deform", deformation});
     }
     refuseOverwriting(outputs, inputs);
+    std::error_code reason;
+    if (options.sequence && !std::filesystem::exists(inputs.front().file, reason)) {
+        throw InputError(fmt::format("'{}'", inputs.front().file.string()),
+                         fmt::format("{}, for frame {} of --sequence",
+                                     reason ? reason.message() : "no such file", frame));
+    }
 }
 
-/// Outputs that cannot be written are refused before the work, not after.
-void checkOutputs(const RenderOptions& options) {
+/// What cannot be read or written is refused before the work, not after.
+void checkFiles(const RenderOptions& options) {
     const FrameRange frames = options.frames.value_or(FrameRange{});
-    std::error_code reason;
     for (int frame = frames.first; frame <= frames.last; ++frame) {
         checkFilesOfFrame(options, frame);
-        if (const std::filesystem::path model = modelOfFrame(options, frame);
-            options.sequence && !std::filesystem::exists(model, reason)) {
-            throw InputError(fmt::format("'{}'", model.string()),
-                             fmt::format("{}, for frame {} of --sequence",
-                                         reason ? reason.message() : "no such file", frame));
-        }
     }
     checkWritable(outputOfFrame(options, frames.first));
     if (options.stats) {
@@ -139,8 +139,7 @@ FrameSettings frameSettings(const RenderOptions& options) {
         splatting.energy = SplattingSettings().energy;
     }
     if (options.irradianceSize) {
-        splatting.irradianceSize = *options.irradianceSize;
-        splatting.fineBelowTexels = splatting.finerBelowTexels = 0.0;
+        splatting.fixIrradianceSize(*options.irradianceSize);
     }
     if (options.levels) {
         splatting.irradianceLevels = options.levels->irradiance;
@@ -410,7 +409,7 @@ Command addRenderCommand(CLI::App& root) {
     addRenderOptions(*command, *options);
     return {command, [options] {
                 validateRenderOptions(*options);
-                checkOutputs(*options);
+                checkFiles(*options);
                 render(*options);
             }};
 }

@@ -6,7 +6,6 @@
 #include <exception>
 #include <new>
 #include <string>
-#include <system_error>
 
 namespace {
 
@@ -34,12 +33,10 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         return fail("memory: not enough for this; make the picture or the model smaller",
                     ExitCode::Failed);
-    } catch (const std::system_error& error) { // of fmt::print, as above
-        if (std::ferror(stdout) != 0) {
+    } catch (const std::exception& error) {
+        if (std::ferror(stdout) != 0) { // fmt::print throws
             return fail("standard output: cannot be written", ExitCode::Failed);
         }
-        return fail(std::string("unexpected failure: ") + error.what(), ExitCode::Failed);
-    } catch (const std::exception& error) {
         return fail(std::string("unexpected failure: ") + error.what(), ExitCode::Failed);
     }
 }

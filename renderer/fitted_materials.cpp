@@ -1,5 +1,6 @@
 #include "renderer/fitted_materials.h"
 
+#include "renderer/material_slots.h"
 #include "subedit/map/material_resize.h"
 
 #include <fmt/format.h>
@@ -26,10 +27,7 @@ bool halveLargest(std::vector<glm::ivec3>& sizes) {
 FittedMaterials::FittedMaterials(std::span<const MaterialPointer> materials, const HasRoom& hasRoom,
                                  const std::function<void()>& beforeEach)
     : mMaps(materials.begin(), materials.end()), mSmaller(materials.size()) {
-    std::vector<glm::ivec3> sizes;
-    for (const MaterialPointer& map : materials) {
-        sizes.emplace_back(map->width, map->height, map->knots());
-    }
+    std::vector<glm::ivec3> sizes = sizesOf(materials);
     while (!hasRoom(sizes)) {
         if (!halveLargest(sizes)) {
             return;

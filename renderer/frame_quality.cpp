@@ -4,10 +4,9 @@ namespace celadon {
 
 namespace {
 
-/// Texels of the light view that R_P spans: below, silhouettes and shadows of the view err by more
-/// than 1 % of what is seen; the texels themselves begin to show, as a lattice.
-constexpr double kSilhouettes = 15.0;
-constexpr double kLattice = 3.75;
+/// As kLatticeTexels: below, silhouettes and shadows of the light view err by more than 1 % of what
+/// is seen.
+constexpr double kSilhouetteTexels = 15.0;
 
 } // namespace
 
@@ -32,7 +31,7 @@ FrameSettings frameSettings(Quality quality) {
         break;
     case Quality::Draft:
         splatting.irradianceSize = 256;
-        splatting.finerBelowTexels = kLattice;
+        splatting.finerBelowTexels = kLatticeTexels;
         splatting.patchVariance = 2.0;
         splatting.alpha = 8.0;
         splatting.sampleAngle = 3.0;
@@ -40,13 +39,13 @@ FrameSettings frameSettings(Quality quality) {
         settings.shadowSize = 512;
         break;
     case Quality::Default:
-        splatting.fineBelowTexels = kSilhouettes;
-        splatting.finerBelowTexels = kLattice;
+        splatting.fineBelowTexels = kSilhouetteTexels;
+        splatting.finerBelowTexels = kLatticeTexels;
         break;
     case Quality::Final:
         splatting.irradianceSize = 1024;
-        splatting.fineBelowTexels = kSilhouettes;
-        splatting.finerBelowTexels = kLattice;
+        splatting.fineBelowTexels = kSilhouetteTexels;
+        splatting.finerBelowTexels = kLatticeTexels;
         splatting.sampleAngle = 1.4;
         splatting.pixelAngle = 0.16;
         settings.shadowSize = 2048;

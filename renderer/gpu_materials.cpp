@@ -71,14 +71,6 @@ MaterialSlots slotsOf(std::span<const glm::ivec3> sizes) {
     return arrangeMaterials(slots);
 }
 
-std::vector<glm::ivec3> sizesOf(std::span<const MaterialPointer> materials) {
-    std::vector<glm::ivec3> sizes;
-    for (const MaterialPointer& map : materials) {
-        sizes.emplace_back(map->width, map->height, map->knots());
-    }
-    return sizes;
-}
-
 void checkSize(std::span<const MaterialPointer> materials, const glm::ivec3& extent) {
     GLint side = 0;
     GLint layers = 0;

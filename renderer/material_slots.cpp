@@ -39,6 +39,14 @@ private:
 
 } // namespace
 
+std::vector<glm::ivec3> sizesOf(std::span<const MaterialPointer> materials) {
+    std::vector<glm::ivec3> sizes;
+    for (const MaterialPointer& map : materials) {
+        sizes.emplace_back(map->width, map->height, map->knots());
+    }
+    return sizes;
+}
+
 MaterialSlots arrangeMaterials(std::span<const glm::ivec3> sizes) {
     std::vector<std::size_t> order(sizes.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "renderer/scene/world.h"
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -9,6 +11,9 @@
 /// Where each material of a scene lies in the one array texture that holds them all
 /// (shaders/include/material.glsl). No GL here.
 namespace celadon {
+
+/// Width, height and knots of each map.
+[[nodiscard]] std::vector<glm::ivec3> sizesOf(std::span<const MaterialPointer> materials);
 
 struct MaterialSlots {
     std::vector<glm::ivec3> origins; ///< left, top, first layer of each, in the order given

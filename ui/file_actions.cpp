@@ -229,15 +229,21 @@ void FileActions::guard(const std::function<void()>& act) {
     guardMaterial([this, act] { guardDeformers([this, act] { guardLights(act); }); });
 }
 
+void FileActions::askToSave(const std::string& text, Question::Answer saving,
+                            const std::function<void()>& act) {
+    ask("Unsaved changes", text,
+        {std::move(saving),
+         {"Do not save", act}, // still modified, should opening fail
+         {"Cancel", {}}});
+}
+
 void FileActions::guardLights(const std::function<void()>& act) {
     if (!mSession.areLightsModified() || mIsUnattended) {
         act();
         return;
     }
-    ask("Unsaved changes", "The lights have changes that only an export to glTF keeps.",
-        {{"Export\xe2\x80\xa6", [this, act] { exportGltf(act); }},
-         {"Do not save", act},
-         {"Cancel", {}}});
+    askToSave("The lights have changes that only an export to glTF keeps.",
+              {"Export\xe2\x80\xa6", [this, act] { exportGltf(act); }}, act);
 }
 
 void FileActions::guardDeformers(const std::function<void()>& act) {
@@ -245,10 +251,8 @@ void FileActions::guardDeformers(const std::function<void()>& act) {
         act();
         return;
     }
-    ask("Unsaved changes", "The deformers have changes that are not saved.",
-        {{"Save\xe2\x80\xa6", [this, act] { saveDeformers(act); }},
-         {"Do not save", act},
-         {"Cancel", {}}});
+    askToSave("The deformers have changes that are not saved.",
+              {"Save\xe2\x80\xa6", [this, act] { saveDeformers(act); }}, act);
 }
 
 void FileActions::guardMaterial(const std::function<void()>& act) {
@@ -261,12 +265,10 @@ void FileActions::guardMaterial(const std::function<void()>& act) {
 }
 
 void FileActions::askAboutMaterial(const std::function<void()>& act) {
-    ask("Unsaved changes",
-        mSession.materialCount() > 1 ? "Materials have changes that are not saved."
-                                     : "The material has changes that are not saved.",
-        {{"Save\xe2\x80\xa6", [this, act] { save([this, act] { guardMaterial(act); }); }},
-         {"Do not save", act}, // still modified, should opening fail
-         {"Cancel", {}}});
+    askToSave(mSession.materialCount() > 1 ? "Materials have changes that are not saved."
+                                           : "The material has changes that are not saved.",
+              {"Save\xe2\x80\xa6", [this, act] { save([this, act] { guardMaterial(act); }); }},
+              act);
 }
 
 void FileActions::remember(const OpenRequest& opened) {

@@ -80,6 +80,9 @@ private:
     /// All that are modified from this one on, one after the other.
     void saveFrom(int material, const std::function<void()>& then);
     void replaceDeformers(const std::filesystem::path& file);
+    /// To save, to act all the same, or neither.
+    void askToSave(const std::string& text, Question::Answer saving,
+                   const std::function<void()>& act);
     void guardMaterial(const std::function<void()>& act);
     void guardDeformers(const std::function<void()>& act);
     void guardLights(const std::function<void()>& act);

@@ -1,5 +1,6 @@
 #include "ui/light_rig.h"
 
+#include "renderer/scene/light.h"
 #include "subedit/errors.h"
 
 #include <fmt/format.h>
@@ -126,18 +127,6 @@ RigLight newLight(Light::Kind kind, const Camera& camera, const BoundingSphere& 
                   : kind == Light::Kind::Point     ? "Point"
                                                    : "Spot";
     return result;
-}
-
-const char* lightKindName(Light::Kind kind) {
-    switch (kind) {
-    case Light::Kind::Directional:
-        return "directional";
-    case Light::Kind::Point:
-        return "point";
-    case Light::Kind::Spot:
-        return "spot";
-    }
-    return "";
 }
 
 Light::Kind parseLightKind(std::string_view name) {

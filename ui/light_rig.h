@@ -59,7 +59,6 @@ struct LightRig {
 [[nodiscard]] RigLight newLight(Light::Kind kind, const Camera& camera,
                                 const BoundingSphere& object, std::span<const RigLight> others);
 
-[[nodiscard]] const char* lightKindName(Light::Kind kind);
 /// @throws UsageError
 [[nodiscard]] Light::Kind parseLightKind(std::string_view name);
 

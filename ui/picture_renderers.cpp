@@ -1,6 +1,7 @@
 #include "ui/picture_renderers.h"
 
 #include "renderer/explain/explain_pictures.h"
+#include "renderer/gather/changed_texels.h"
 #include "renderer/splatting/splatting_buffer.h"
 #include "renderer/splatting/splatting_solver.h"
 
@@ -36,15 +37,9 @@ FrameSettings settingsOf(const PictureRequest& request) {
     return settings;
 }
 
-/// Texels of one material.
-struct Edited {
-    int material = 0;
-    subedit::TexelRect rect;
-};
-
 /// Dabs of a stroke overlap, and many come between two pictures: what lies within the rectangles of
 /// two is worked on once.
-void addEdited(std::vector<Edited>& all, Edited added) {
+void addEdited(std::vector<TexelChange>& all, TexelChange added) {
     for (auto other = all.begin(); other != all.end();) {
         const subedit::TexelRect both = unite(other->rect, added.rect);
         if (other->material == added.material &&
@@ -169,7 +164,7 @@ void PictureRenderers::apply(const SelectionWeights& selection) {
 }
 
 void PictureRenderers::apply(const std::deque<MaterialPatch>& patches) {
-    std::vector<Edited> edited;
+    std::vector<TexelChange> edited;
     for (const MaterialPatch& patch : patches) {
         subedit::MaterialMap& map = *mMaterials[static_cast<std::size_t>(patch.material)];
         if (patch.whole) {

@@ -1,6 +1,7 @@
 #include "ui/session.h"
 
 #include "renderer/scene/camera.h"
+#include "renderer/scene/light.h"
 #include "subedit/errors.h"
 
 #include <fmt/format.h>

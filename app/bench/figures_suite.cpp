@@ -139,8 +139,7 @@ private:
 
     [[nodiscard]] static FrameSettings oneRate(int size) {
         FrameSettings settings = named("none");
-        settings.splatting.irradianceSize = size;
-        settings.splatting.fineBelowTexels = settings.splatting.finerBelowTexels = 0.0;
+        settings.splatting.fixIrradianceSize(size);
         settings.splatting.energy = 1.0; // to r_s, or no rate would reach our error
         return settings;
     }

@@ -161,9 +161,7 @@ BenchDocument runScaling(const gl::Context& context, const ScalingOptions& optio
             std::string times;
             for (const Case& c : variation.cases) {
                 log::info("{} {:g}: {}", variation.name, c.amount, method.name);
-                method.settings.splatting.irradianceSize = c.irradianceSize;
-                method.settings.splatting.fineBelowTexels =
-                    method.settings.splatting.finerBelowTexels = 0.0;
+                method.settings.splatting.fixIrradianceSize(c.irradianceSize);
                 method.settings.splatting.backend = options.backend;
                 const MeasuredFrame frame =
                     measureFrames(context, c.world, method.settings, c.size,

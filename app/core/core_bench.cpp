@@ -193,9 +193,7 @@ std::string runBench(const gl::Context& context, const BenchRequest& request) {
                         settings.statistics = true;
                         settings.splatting.backend = backend.kind;
                         if (request.irradianceSize) {
-                            settings.splatting.irradianceSize = *request.irradianceSize;
-                            settings.splatting.fineBelowTexels =
-                                settings.splatting.finerBelowTexels = 0.0;
+                            settings.splatting.fixIrradianceSize(*request.irradianceSize);
                         }
                         const Camera camera =
                             chooseCamera(world, {}, static_cast<double>(size.x) / size.y);

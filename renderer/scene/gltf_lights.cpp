@@ -1,5 +1,7 @@
 #include "renderer/scene/gltf_lights.h"
 
+#include "renderer/scene/light.h"
+
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
@@ -52,20 +54,13 @@ json describe(const NamedLight& named) {
     const Light& light = named.light;
     const double intensity = std::max({light.color.r, light.color.g, light.color.b});
     const glm::dvec3 color = intensity > 0.0 ? light.color / intensity : glm::dvec3(1.0);
-    json made = {
-        {"name", named.name}, {"color", {color.r, color.g, color.b}}, {"intensity", intensity}};
-    switch (light.kind) {
-    case Light::Kind::Directional:
-        made["type"] = "directional";
-        break;
-    case Light::Kind::Point:
-        made["type"] = "point";
-        break;
-    case Light::Kind::Spot:
-        made["type"] = "spot";
+    json made = {{"name", named.name},
+                 {"type", lightKindName(light.kind)},
+                 {"color", {color.r, color.g, color.b}},
+                 {"intensity", intensity}};
+    if (light.kind == Light::Kind::Spot) {
         made["spot"] = {{"innerConeAngle", light.innerConeRadians},
                         {"outerConeAngle", light.outerConeRadians}};
-        break;
     }
     return made;
 }

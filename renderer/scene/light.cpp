@@ -115,6 +115,18 @@ bool turnsItsBack(const World& world, const glm::dvec3& toLight) {
 
 } // namespace
 
+const char* lightKindName(Light::Kind kind) {
+    switch (kind) {
+    case Light::Kind::Directional:
+        return "directional";
+    case Light::Kind::Point:
+        return "point";
+    case Light::Kind::Spot:
+        return "spot";
+    }
+    return "";
+}
+
 Light parseLight(std::string_view text) {
     const LightArgument argument(text);
     Light light;

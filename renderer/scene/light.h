@@ -10,6 +10,9 @@
 /// without any gets. Units: scene.h.
 namespace celadon {
 
+/// "directional", "point", "spot": on the command line, in the editor and in glTF.
+[[nodiscard]] const char* lightKindName(Light::Kind kind);
+
 /// Reads one `--light` argument (DESIGN section 5):
 ///   directional:DX,DY,DZ[:R,G,B]                          R,G,B irradiance on a plane facing it
 ///   point:X,Y,Z[:R,G,B]                                   R,G,B radiant intensity, W/sr

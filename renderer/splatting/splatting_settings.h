@@ -19,14 +19,22 @@ enum class SplatBackendKind {
     Cpu     ///< tiles gather on the processor; for software drivers, where a read-back is a copy
 };
 
+/// Of a light view, that R_P spans: below, the texels themselves begin to show, as a lattice.
+inline constexpr double kLatticeTexels = 3.75;
+
 struct SplattingSettings {
     Scheme scheme = Scheme::Paper;
     SplatBackendKind backend = SplatBackendKind::Auto;
-    int irradianceSize = 512;       ///< N, texels on a side of the irradiance buffer
+    int irradianceSize = 512; ///< N, texels on a side of the irradiance buffer
     /// N is doubled where R_P spans fewer texels than the one, for silhouettes and shadows of the
     /// light view, and again where fewer than the other, since texels show; 0: it stays.
     double fineBelowTexels = 0.0;
     double finerBelowTexels = 0.0;
+    /// N as it is asked for, whatever R_P.
+    void fixIrradianceSize(int size) {
+        irradianceSize = size;
+        fineBelowTexels = finerBelowTexels = 0.0;
+    }
     /// Of a texel's patch, over that of a texel lit evenly. With 1, patches wider than the core of
     /// a profile leave a comb between them, seen as a lattice of dots; with 2 a fifth of it, and
     /// edges of shadows that are softer by a tenth of a texel.

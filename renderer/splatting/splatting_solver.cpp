@@ -31,11 +31,10 @@ double refinedPatchVariance(const SplattingSettings& settings, double shortRadiu
     }
     // Patches s texels wide ripple by 2 e^(-2 pi^2 s^2): 40 % at 1/12, 1.4 % at three times that.
     constexpr double kSpread = 3.0;
-    constexpr double kNone = 3.75; // texels of a range that hide the lattice by themselves
-    constexpr double kAll = 2.0;
+    constexpr double kAll = 2.0; // texels of a range that hides nothing of the lattice by itself
     const double texels = settings.irradianceSize * shortRadiusMm / R_w;
     const double wanted =
-        std::lerp(kSpread, 1.0, std::clamp((texels - kAll) / (kNone - kAll), 0.0, 1.0));
+        std::lerp(kSpread, 1.0, std::clamp((texels - kAll) / (kLatticeTexels - kAll), 0.0, 1.0));
     return std::max(settings.patchVariance, wanted);
 }
 

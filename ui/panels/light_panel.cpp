@@ -1,5 +1,6 @@
 #include "ui/panels/light_panel.h"
 
+#include "renderer/scene/light.h"
 #include "ui/theme.h"
 #include "ui/widgets/fields.h"
 #include "ui/widgets/held_change.h"

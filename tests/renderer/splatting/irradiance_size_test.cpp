@@ -44,8 +44,7 @@ TEST(IrradianceSize, PatchesSpreadWhereRangesDoNot) {
 
 TEST(IrradianceSize, WhatIsAskedForStays) {
     SplattingSettings settings = frameSettings(Quality::Default).splatting;
-    settings.irradianceSize = 300;
-    settings.fineBelowTexels = settings.finerBelowTexels = 0.0; // as --irradiance-size does
+    settings.fixIrradianceSize(300); // as --irradiance-size does
     EXPECT_EQ(refinedIrradianceSize(settings, 0.5, kObjectMm), 300);
 }
 
