@@ -165,6 +165,7 @@ void edit(EditOptions o) {
             session.rig.lights =
                 ui::lightPreset("back", session.camera, session.world().scatteringSphere);
         }
+        session.markLightsSaved(); // as the command line has them: nobody has changed any
         if (scene.environment) {
             session.perform({"environment.open", {{"file", scene.environment->string()}}});
         }
